@@ -10,10 +10,18 @@ import sys
 import time
 from functools import cache
 from glob import glob
+from importlib.util import find_spec
 from pathlib import Path
 
 from snakemake.utils import min_version
 
+library = find_spec("topheavy")
+if not library or not Path(library.origin).resolve().is_relative_to(Path.cwd()):
+    sys.exit(
+        f"the environment {sys.prefix} is not of this folder (its library is "
+        f"{library.origin if library else 'missing'}): a copied .venv still belongs to the folder "
+        "where it was made. Remove it, then make reproduce; or: pip install -e ."
+    )
 sys.path.insert(0, "src")
 from replication.claims import read_claims
 from replication.config import components, read_config, read_yaml
@@ -152,11 +160,11 @@ rule all:
         "All results are there"
 
 
-def summary():
-    """Print the verdicts, if this run has made them."""
-    path = "results/summary.txt"
-    if os.path.isfile(path) and os.path.getmtime(path) >= BEGUN:
-        print(open(path).read(), end="")
+def last_lines():
+    """Print verdicts, faults and where results lie, if this run has come so far."""
+    log = Path("results/logs/expected.log")
+    if log.is_file() and log.stat().st_mtime >= BEGUN:
+        print(log.read_text("utf-8"), end="")
 
 
 onstart:
@@ -166,8 +174,8 @@ onstart:
 
 
 onsuccess:
-    summary()
+    last_lines()
 
 
 onerror:
-    summary()
+    last_lines()

@@ -25,6 +25,8 @@ rule motions_shard:
         settings=PAPER["motions"],
         break_even=PAPER["break_even"],
         structures=PAPER["structures"],
+    message:
+        "Synthetic ground motions, part {wildcards.scatteritem}"
     script:
         "../src/steps/beyond/motions_shard.py"
 
@@ -49,6 +51,9 @@ rule motions:
         code=code("src/steps/beyond/motions.py"),
         settings=PAPER["motions"],
         structures=PAPER["structures"],
+        counts=["only_frame"],  # of outcomes
+    message:
+        "Synthetic ground motions: probabilities and gains"
     script:
         "../src/steps/beyond/motions.py"
 
@@ -69,6 +74,8 @@ rule break_even:
         settings=PAPER["break_even"],
         motions=PAPER["motions"],
         structures=PAPER["structures"],
+    message:
+        "The reduction of √r at which the benefit ends"
     script:
         "../src/steps/beyond/break_even.py"
 
@@ -90,6 +97,9 @@ rule records:
         settings=PAPER["records"],
         solver=PAPER["solver"],
         structures=PAPER["structures"],
+        counts=["decided", "both", "only_lighter", "only_heavier"],  # of outcomes
+    message:
+        "Measured ground motions"
     script:
         "../src/steps/beyond/records.py"
 
@@ -112,6 +122,9 @@ rule friction:
         code=code("src/steps/beyond/friction.py"),
         settings=PAPER["friction"],
         structures=PAPER["structures"],
+        counts=["survived"],  # of outcomes
+    message:
+        "Required coefficients of friction"
     script:
         "../src/steps/beyond/friction.py"
 
@@ -133,6 +146,8 @@ rule designers:
         settings=PAPER["designers"],
         friction=PAPER["friction"],
         structures=PAPER["structures"],
+    message:
+        "The table for designers"
     script:
         "../src/steps/beyond/designers.py"
 
@@ -154,6 +169,8 @@ rule engine:
         code=code("src/steps/beyond/engine.py"),
         settings=PAPER["engine"],
         structures=PAPER["structures"],
+    message:
+        "Structures in a general rigid-body engine (MuJoCo)"
     script:
         "../src/steps/beyond/engine.py"
 
@@ -172,11 +189,15 @@ rule gaps:
         settings=PAPER["gaps"],
         trilith=PAPER["trilith"],
         structures=PAPER["structures"],
+    message:
+        "The trilith with gaps in its contacts (MuJoCo)"
     script:
         "../src/steps/beyond/gaps.py"
 
 
 rule test_plan:
+    input:
+        kernel="results/kernel.compiled",
     output:
         table="results/tables/test_plan.csv",
         findings="results/findings/test_plan.json",
@@ -187,5 +208,7 @@ rule test_plan:
     params:
         code=code("src/steps/beyond/test_plan.py"),
         settings=PAPER["test_plan"],
+    message:
+        "The shake-table test that could refute the answer"
     script:
         "../src/steps/beyond/test_plan.py"

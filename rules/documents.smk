@@ -98,6 +98,7 @@ rule claims:
         "results/logs/claims.log",
     benchmark:
         "results/benchmarks/claims.tsv"
+    priority: 4
     params:
         code=code("src/steps/judge.py", rule="claims"),
         settings=CLAIMS,
@@ -146,6 +147,8 @@ rule verdicts:
             name: {"script": rule["script"], "tables": rule["tables"]}
             for name, rule in RULES.items()
         },
+    message:
+        "Writing the list of verdicts"
     script:
         "../src/steps/verdicts.py"
 
@@ -179,11 +182,9 @@ for document in ["report", "supplement"]:
             "../src/steps/typeset.py"
 
 
-# The last: the documents are there when a verdict is not the expected one.
+# Documents do not wait for it: they are made, too, when a verdict is not the expected one.
 rule expected:
     input:
-        "paper/report.pdf",
-        "paper/supplement.pdf",
         claims="results/claims.json",
         comparison="results/comparison.csv",
     output:
@@ -194,6 +195,8 @@ rule expected:
         "results/benchmarks/expected.tsv"
     params:
         code=code("src/steps/expect.py", rule="expected"),
+    message:
+        "Comparing verdicts with the expected ones"
     script:
         "../src/steps/expect.py"
 

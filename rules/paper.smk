@@ -10,9 +10,11 @@ rule kernel:
         "results/logs/kernel.log",
     benchmark:
         "results/benchmarks/kernel.tsv"
-    priority: 3
+    priority: 4
     params:
         code=code("src/steps/kernel.py"),
+    message:
+        "Compiling the solver, once for all jobs"
     script:
         "../src/steps/kernel.py"
 
@@ -26,8 +28,11 @@ rule equations:
         "results/logs/equations.log",
     benchmark:
         "results/benchmarks/equations.tsv"
+    priority: 3
     params:
         code=code("src/steps/equations.py"),
+    message:
+        "Equations of the paper: each printed one, and the theorems"
     script:
         "../src/steps/equations.py"
 
@@ -45,10 +50,13 @@ rule parameters:
         "results/logs/parameters.log",
     benchmark:
         "results/benchmarks/parameters.tsv"
+    priority: 3
     params:
         code=code("src/steps/parameters.py"),
         settings=PAPER["parameters"],
         structures=PAPER["structures"],
+    message:
+        "Results of the paper: p̂ and R̂ over γ, √r over α, moments over rotation"
     script:
         "../src/steps/parameters.py"
 
@@ -67,11 +75,14 @@ rule trilith:
         "results/logs/trilith.log",
     benchmark:
         "results/benchmarks/trilith.tsv"
+    priority: 3
     params:
         code=code("src/steps/trilith.py"),
         settings=PAPER["trilith"],
         structures=PAPER["structures"],
         solver=PAPER["solver"],
+    message:
+        "Results of the paper: the trilith"
     script:
         "../src/steps/trilith.py"
 
@@ -89,11 +100,15 @@ rule allen:
         "results/logs/allen.log",
     benchmark:
         "results/benchmarks/allen.tsv"
+    priority: 3
     params:
         code=code("src/steps/allen.py"),
         settings=PAPER["allen"],
         structures=PAPER["structures"],
         solver=PAPER["solver"],
+        counts=["exact", "linearised", "all"],  # of outcomes
+    message:
+        "Results of the paper: the comparison with Allen et al."
     script:
         "../src/steps/allen.py"
 
@@ -113,6 +128,8 @@ rule statements:
         code=code("src/steps/statements.py"),
         settings=PAPER["statements"],
         structures=PAPER["structures"],
+    message:
+        "Results of the paper: its statements in words, and three rigid bodies"
     script:
         "../src/steps/statements.py"
 
@@ -132,6 +149,8 @@ rule verification:
         code=code("src/steps/verification.py"),
         settings=PAPER["verification"],
         solver=PAPER["solver"],
+    message:
+        "Comparing solvers with each other and with the literature"
     script:
         "../src/steps/verification.py"
 
@@ -157,6 +176,8 @@ rule spectra_shard:
         code=code("src/steps/spectra_shard.py"),
         settings=PAPER["spectra"],
         shard="{scatteritem}",
+    message:
+        "Overturning spectra, part {wildcards.scatteritem}"
     script:
         "../src/steps/spectra_shard.py"
 
@@ -178,6 +199,8 @@ rule spectra:
         code=code("src/steps/spectra.py"),
         settings=PAPER["spectra"],
         tightened=PAPER["solver"]["tightened"],
+    message:
+        "Overturning spectra: is a heavier beam more stable?"
     script:
         "../src/steps/spectra.py"
 
@@ -199,6 +222,8 @@ rule vase:
         code=code("src/steps/vase.py"),
         settings=PAPER["vase"],
         column=PAPER["structures"]["temple"],
+    message:
+        "Minimum overturning accelerations: column, fixed mass and frame"
     script:
         "../src/steps/vase.py"
 
@@ -220,6 +245,8 @@ rule proven:
         code=code("src/steps/proven.py"),
         column=PAPER["structures"]["temple"],
         period=PAPER["vase"]["period"],
+    message:
+        "Verifying minima with interval arithmetic"
     script:
         "../src/steps/proven.py"
 
@@ -238,6 +265,8 @@ rule uplift:
         code=code("src/steps/uplift.py"),
         settings=PAPER["uplift"],
         column=PAPER["structures"]["temple"],
+    message:
+        "Forces of structures that uplift"
     script:
         "../src/steps/uplift.py"
 
@@ -256,6 +285,8 @@ rule animation:
         code=code("src/steps/animation.py", "figures/palette.py"),
         settings=PAPER["animation"],
         column=PAPER["structures"]["temple"],
+    message:
+        "Drawing the animation of README"
     script:
         "../src/steps/animation.py"
 
@@ -273,5 +304,7 @@ rule explorer:
         "results/benchmarks/explorer.tsv"
     params:
         code=code("src/steps/explorer.py"),
+    message:
+        "Writing the page to play with"
     script:
         "../src/steps/explorer.py"

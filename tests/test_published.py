@@ -8,7 +8,8 @@ import pytest
 
 from replication.claims import unexpected
 from steps.check import REFERENCE, findings, published
-from steps.compare import departures
+from steps.compare import compare, departures
+from steps.expect import faults
 from tests.cases import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -23,11 +24,56 @@ def test_every_claim_has_its_expected_verdict_by_the_published_tables():
     assert unexpected(published()) == []
 
 
-def test_first_value_that_departs_from_the_published_one_is_named():
-    ours, theirs = (pd.DataFrame({"x": [1, 2.0], "y": [0.1, y]}) for y in (0.2, 0.3))
-    bounds = {"relative": 1e-6, "absolute": 1e-9, "counts": 3}
-    (told,) = departures(ours, theirs, bounds)
-    assert told == "y (At positional index 1, first diff: 0.2 != 0.3)"
+TABLE = {"key": [0, 1, 4, 9], "outcome": [0, 1, 1, 0], "count": [7, 8, 9, 9], "x": [1.0, 2, 3, 4]}
+BOUNDS = {"relative": 1e-6, "absolute": 1e-9, "counts": 2}
+
+
+@pytest.mark.parametrize(
+    ("column", "content", "departs"),
+    [
+        ("key", [0, 1, 4, 8], "key (At positional index 3, first diff: 8 != 9)"),
+        ("outcome", [1, 0, 1, 0], ""),
+        ("outcome", [1, 0, 0, 0], "outcome (At positional index 0, first diff: 1 != 0)"),
+        ("count", [9, 6, 9, 9], ""),
+        ("count", [7, 8, 9, 12], "count (At positional index 3, first diff: 12 != 9)"),
+        ("x", [1.0, 2, 3, 4.000001], ""),
+        ("x", [1.0, 2, 3, 4.00001], "x (At positional index 3, first diff: 4.00001 != 4.0)"),
+    ],
+)
+def test_column_is_compared_as_a_key_an_outcome_a_count_or_a_number(column, content, departs):
+    ours, theirs = pd.DataFrame(TABLE | {column: content}), pd.DataFrame(TABLE)
+    assert "; ".join(departures(ours, theirs, BOUNDS, ["outcome", "count"])) == departs
+
+
+@pytest.mark.parametrize(
+    ("verdict", "required", "words"),
+    [
+        ("agrees", True, []),
+        ("differs", False, ["t.csv differs from"]),
+        ("other parameters of r", False, []),
+        ("other parameters of r", True, ["t.csv was not compared (other parameters of r)"]),
+        ("not published", True, ["t.csv was not compared (not published)"]),
+    ],
+)
+def test_run_fails_where_a_table_is_not_as_published(verdict, required, words):
+    table = {"table": "t.csv", "published": "p.csv", "verdict": verdict, "departs": "x"}
+    lines = faults([], [table | {"required": str(required)}])
+    assert len(lines) == len(words)
+    assert all(line.startswith(start) for line, start in zip(lines, words, strict=True))
+
+
+def test_table_of_other_parameters_or_sources_is_not_compared(tmp_path):
+    path = str(tmp_path / "vase.csv")
+    pd.read_csv(ROOT / REFERENCE / "vase.csv").to_csv(path, index=False)
+    rule = {"params": {"a": 1}, "sources": {"s": "0"}, "tables": [path]}
+    for change, verdict in (
+        ({}, "agrees"),
+        ({"params": {"a": 2}}, "other parameters of vase"),
+        ({"sources": {"s": "1"}}, "other parameters of vase"),
+        ({"tables": [str(tmp_path / "new.csv")]}, "not published"),
+    ):
+        compared = compare({"vase": rule | change}, {"vase": rule}, BOUNDS)
+        assert list(compared.verdict) == [verdict]
 
 
 def test_numbers_of_readme_are_those_of_the_published_tables(found):

@@ -124,7 +124,8 @@ def test_false_claim_is_named_with_its_file(tmp_path):
     (claim,) = read_claims(ledger(tmp_path, GOOD), {"scale": 1.3})
     (line,) = unexpected([judged(claim, {"run": {"good": truth(False)}})])
     assert line.endswith(
-        "claims.yaml: claim stands is refuted; expected confirmed (computed: False)"
+        "claims.yaml: verdict of stands is refuted, expected confirmed (computed: False): set "
+        "`expected`, or look for the cause"
     )
 
 

@@ -1,6 +1,7 @@
 """Read claims, and judge each by its finding."""
 
 import json
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,8 @@ from pydantic import ValidationError
 
 from replication.config import Section, read_yaml
 from replication.numbers import inputs, without_marks
+
+TITLES = {"paper": "claims of the paper", "ours": "claims of our own"}
 
 
 class Claim(Section):
@@ -127,12 +130,29 @@ def read_findings(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
     return {Path(path).stem: json.loads(Path(path).read_text("utf-8")) for path in paths}
 
 
+def counts(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return a line for each list of claims: how many have each verdict."""
+    from replication.verdicts import VERDICTS
+
+    lists: dict[str, list] = {}
+    for row in rows:
+        lists.setdefault(row["part"], []).append(row)
+    lines = []
+    for part, members in lists.items():
+        count = Counter(row["verdict"] for row in members)
+        line = ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict])
+        differ = sum(bool(row["differs"]) for row in members)
+        line += f"; our copy of the paper differs in {differ}" if differ else ""
+        lines.append(f"{TITLES.get(part, 'claims of study ' + part)}: {line}")
+    return lines
+
+
 def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     """Return a line for each claim whose verdict, or flag, is not the expected one."""
     return [
-        f"verdict of {row['id']} is {_verdict(row, 'verdict', 'differs')}, expected "
+        f"{row['file']}: verdict of {row['id']} is {_verdict(row, 'verdict', 'differs')}, expected "
         f"{_verdict(row, 'expected', 'expected_differs')} (computed: "
-        f"{row['shown'] or row['computed']}): set `expected` in {row['file']}, or look for the cause"
+        f"{row['shown'] or row['computed']}): set `expected`, or look for the cause"
         for row in rows
         if row["verdict"] != row["expected"] or row["differs"] != row.get("expected_differs", "")
     ]

@@ -1,6 +1,7 @@
 """Run a step: compute its tables, draw its findings from them as written, and write all at once."""
 
 import json
+import math
 import os
 import sys
 import traceback
@@ -99,6 +100,14 @@ def geometric(spec: Mapping[str, float]) -> "np.ndarray":
     import numpy as np
 
     return np.geomspace(spec["lowest"], spec["highest"], int(spec["points"]))
+
+
+def power_above(difference: float, tolerance: float) -> float:
+    """Return the lowest power of ten above a difference of solvers and above their tolerance.
+
+    The digits of such a difference are rounding, which depends on the processor.
+    """
+    return 10.0 ** math.ceil(math.log10(max(difference, tolerance)))
 
 
 def stop(message: str) -> NoReturn:

@@ -9,18 +9,18 @@ import runpy
 from pathlib import Path
 from typing import Any
 
-from replication.claims import judged, read_claims, unexpected
+from replication.claims import counts, judged, read_claims, unexpected
 from replication.step import call
 
 REFERENCE = Path("tests/reference")
 
 
-def findings(rules: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """Return the findings of each rule, by its script, from the published tables."""
+def findings(rules: dict[str, Any], folder: Path = REFERENCE) -> dict[str, dict[str, Any]]:
+    """Return the findings of each rule, by its script, from the tables in a folder."""
     by_rule = {}
     for name, rule in rules.items():
         if rule["findings"]:
-            paths = [REFERENCE / Path(path).name for path in [*rule["reads"], *rule["tables"]]]
+            paths = [folder / Path(path).name for path in [*rule["reads"], *rule["tables"]]]
             tables = {path.stem: str(path) for path in paths}
             by_rule[name] = call(
                 runpy.run_path(rule["script"])["findings"], name, tables, rule["params"]
@@ -42,4 +42,5 @@ if __name__ == "__main__":
     rows = published()
     if wrong := unexpected(rows):
         raise SystemExit("\n".join(wrong))
-    print(f"{len(rows)} claims have their expected verdicts, from the published tables")
+    print(*counts(rows), sep="\n")
+    print("Each verdict, from the published tables, is the one that paper/claims.yaml expects.")

@@ -1,7 +1,7 @@
 """Compare each table with the published one, where its rule has the parameters of that run."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,21 +12,28 @@ from replication.step import log_to, publish
 REFERENCE = Path("tests/reference")
 
 
-def departures(ours: pd.DataFrame, theirs: pd.DataFrame, bounds: Mapping) -> Iterator[str]:
-    """Yield each column that departs from the published one, with the first such value."""
+def departures(
+    ours: pd.DataFrame, theirs: pd.DataFrame, bounds: Mapping, counts: Collection[str] = ()
+) -> Iterator[str]:
+    """Yield each column that departs from the published one, with the first such value.
+
+    Whole numbers are exact, but for `counts` of outcomes. Such a count may differ by
+    `bounds["counts"]`; of a column of outcomes, each 0 or 1, so many may differ.
+    """
     for name in dict.fromkeys([*theirs, *ours]):
         if name not in ours or name not in theirs:
             yield f"{name} (only {'here' if name in ours else 'published'})"
             continue
-        whole = all(pd.api.types.is_integer_dtype(one[name]) for one in (ours, theirs))
+        pair = ours[name], theirs[name]
+        is_whole = all(pd.api.types.is_integer_dtype(one) for one in pair)
+        relative, absolute = bounds["relative"], bounds["absolute"]
+        if is_whole:
+            relative, absolute = 0.0, bounds["counts"] if name in counts else 0.0
+        if name in counts and all(one.isin([0, 1]).all() for one in pair):
+            is_few = len(ours) == len(theirs) and (pair[0] != pair[1]).sum() <= bounds["counts"]
+            absolute = 1.0 if is_few else 0.0
         try:
-            pd.testing.assert_series_equal(
-                ours[name],
-                theirs[name],
-                check_dtype=False,
-                rtol=bounds["relative"],
-                atol=bounds["counts"] if whole else bounds["absolute"],
-            )
+            pd.testing.assert_series_equal(*pair, check_dtype=False, rtol=relative, atol=absolute)
         except AssertionError as fault:
             yield f"{name} ({str(fault).splitlines()[-1]})"
 
@@ -34,7 +41,7 @@ def departures(ours: pd.DataFrame, theirs: pd.DataFrame, bounds: Mapping) -> Ite
 def compare(
     rules: Mapping[str, Any], published: Mapping[str, Any], bounds: Mapping
 ) -> pd.DataFrame:
-    """Return a row for each published table that a rule of the run makes.
+    """Return a row for each table of a run: whether it agrees with the published one.
 
     `rules` are those of this run with their parameters and tables, `published` those of the
     published run.
@@ -44,15 +51,15 @@ def compare(
         known = published.get(name, {})
         for path in rule["tables"]:
             theirs = REFERENCE / Path(path).name
-            if not theirs.is_file():
-                continue
-            same = _inputs(known) == _inputs(rule)
             columns: list[str] = []
-            if same:
-                columns = list(departures(pd.read_csv(path), pd.read_csv(theirs), bounds))
-            verdict = (
-                ("differs" if columns else "agrees") if same else f"other parameters of {name}"
-            )
+            if not theirs.is_file():
+                verdict = "not published"
+            elif _inputs(known) != _inputs(rule):
+                verdict = f"other parameters of {name}"
+            else:
+                tables = pd.read_csv(path), pd.read_csv(theirs)
+                columns = list(departures(*tables, bounds, rule["params"].get("counts", ())))
+                verdict = "differs" if columns else "agrees"
             rows.append(
                 {
                     "table": path,
@@ -71,13 +78,14 @@ def _inputs(rule: Mapping) -> str:
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        known = REFERENCE / "rules.json"
-        published = json.loads(known.read_text("utf-8")) if known.is_file() else {}
-        rules = snakemake.params.rules
-        table = compare(rules, published, snakemake.params.bounds)
-        texts = {
-            snakemake.output.table: table.to_csv(index=False),
-        }
+        published, settings = (
+            json.loads(path.read_text("utf-8")) if path.is_file() else {}
+            for path in (REFERENCE / "rules.json", REFERENCE / "settings.json")
+        )
+        table = compare(snakemake.params.rules, published, snakemake.params.bounds)
+        # Under the published config every table has to be compared.
+        table["required"] = settings == json.loads(json.dumps(snakemake.params.settings))
+        texts = {snakemake.output.table: table.to_csv(index=False)}
         for name in ("rules", "settings"):
             text = json.dumps(snakemake.params[name], indent=1, sort_keys=True, ensure_ascii=False)
             texts[snakemake.output[name]] = text + "\n"

@@ -1,28 +1,44 @@
-"""Fail when a verdict is not the expected one, and name the claim; else count the verdicts."""
+"""Count the verdicts, name each that is not the expected one, and fail if there is one."""
 
 import csv
 import json
-from collections import Counter
 from pathlib import Path
 
-from replication.claims import unexpected
+from replication.claims import counts, unexpected
 from replication.step import log_to, publish, stop
-from replication.verdicts import VERDICTS
+
+PLACES = (
+    "article: paper/report.pdf, supplement: paper/supplement.pdf, every verdict: "
+    "results/verdicts.md, tables: results/tables/, figures: figures/*.svg, "
+    "notebooks: results/notebooks/"
+)
+
+
+def faults(rows: list[dict], comparison: list[dict]) -> list[str]:
+    """Return a line for each unexpected verdict, and for each table that is not as published."""
+    return unexpected(rows) + [
+        f"{table['table']} differs from {table['published']} in {table['departs']}: look for the "
+        "cause, or make publish"
+        if table["verdict"] == "differs"
+        else f"{table['table']} was not compared ({table['verdict']}), although the config is the "
+        "published one: make publish"
+        for table in comparison
+        if table["verdict"] == "differs"
+        or (table["required"] == "True" and table["verdict"] != "agrees")
+    ]
 
 
 def summary(rows: list[dict], comparison: list[dict]) -> str:
-    """Return how many claims of the paper, of ours and of each study have each verdict."""
-    lines = []
-    for part in dict.fromkeys(row["part"] for row in rows):
-        count = Counter(row["verdict"] for row in rows if row["part"] == part)
-        counts = ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict])
-        differ = sum(bool(row["differs"]) for row in rows if row["part"] == part)
-        lines.append(f"{part}: {counts}" + (f" (our copy differs in {differ})" if differ else ""))
+    """Return the last lines of a run: counts of verdicts, faults, and where results lie."""
     agree = sum(table["verdict"] == "agrees" for table in comparison)
-    lines.append(
-        f"tables: {agree} of {len(comparison)} agree with the published ones, others not compared"
-    )
-    return "\n".join(lines) + "\n"
+    rest = [
+        f"{Path(table['table']).name} ({table['verdict']})"
+        for table in comparison
+        if table["verdict"] not in ("agrees", "differs")
+    ]
+    line = f"tables: {agree} of {len(comparison)} agree with the published ones"
+    line += f"; not compared: {', '.join(rest)}" if rest else ""
+    return "\n".join([*counts(rows), line, *faults(rows, comparison), PLACES]) + "\n"
 
 
 if __name__ == "__main__":
@@ -31,11 +47,8 @@ if __name__ == "__main__":
         comparison = [
             *csv.DictReader(Path(snakemake.input.comparison).read_text("utf-8").splitlines())
         ]
-        wrong = unexpected(rows) + [
-            f"{row['table']} differs from {row['published']} in {row['departs']}"
-            for row in comparison
-            if row["verdict"] == "differs"
-        ]
-        if wrong:
-            stop("\n".join(wrong))
-        publish(snakemake, {snakemake.output[0]: summary(rows, comparison)})
+        text = summary(rows, comparison)
+        if faults(rows, comparison):
+            stop(text.rstrip())  # the log has it, which the Snakefile shows at the end
+        print(text, end="")
+        publish(snakemake, {snakemake.output[0]: text})

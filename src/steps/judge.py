@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from replication.claims import judged, read_claims, read_findings
+from replication.claims import judged, read_claims, read_findings, unexpected
 from replication.step import log_to, publish
 
 
@@ -13,6 +13,7 @@ def work(job: Any) -> None:
     findings = read_findings(path for path in job.input if path.endswith(".json"))
     claims = [c for path, known in job.params.settings.items() for c in read_claims(path, known)]
     rows = [judged(claim, findings) for claim in claims]
+    print(*unexpected(rows), sep="\n", file=sys.__stderr__)  # at once, and again at the end
     publish(job, {job.output[0]: json.dumps(rows, indent=1, ensure_ascii=False) + "\n"})
 
 

@@ -4,13 +4,19 @@ import gzip
 import hashlib
 import json
 import shutil
+import subprocess
+import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 from replication.claims import unexpected
 from replication.config import read_config
 from replication.sections import Paper
+from replication.step import findings_text
+from steps.check import findings
 
 REFERENCE, DOCS = Path("tests/reference"), Path("docs")
+CLAIMS = Path("results/claims.json")
 
 PAGES = {
     "paper/report.pdf": "report.pdf",
@@ -43,29 +49,38 @@ def copies() -> dict[Path, Path]:
     }
 
 
-def refuse() -> None:
-    """Stop unless a run of config/config.yaml has judged every claim as expected.
+def refuse(paths: Iterable[Path]) -> None:
+    """Stop unless a run of config/config.yaml is up to date and has judged its own tables.
 
     Its tables may differ from the published ones, since these are replaced.
     """
-    made = [
-        "results/claims.json",
-        "results/settings.json",
-        "paper/report.pdf",
-        "paper/supplement.pdf",
-    ]
-    if missing := [path for path in made if not Path(path).is_file()]:
-        raise SystemExit(f"there is no {missing[0]}; expected a finished run: make reproduce")
-    if wrong := unexpected(json.loads(Path("results/claims.json").read_text("utf-8"))):
+    if wrong := unexpected(json.loads(CLAIMS.read_text("utf-8"))):
         raise SystemExit("\n".join(wrong))
     used = json.loads(Path("results/settings.json").read_text("utf-8"))["paper/claims.yaml"]
     if used != json.loads(json.dumps(read_config("config/config.yaml", Paper))):
         raise SystemExit("results/ is not of config/config.yaml as it is now: make reproduce")
+    command = [sys.executable, "-m", "snakemake", "--dry-run", *map(str, [CLAIMS, *paths])]
+    answer = subprocess.run(command, capture_output=True, text=True)
+    if "Nothing to be done" not in answer.stdout + answer.stderr:
+        raise SystemExit(
+            "results/ is not up to date with this tree: make reproduce (snakemake -n says why)"
+        )
+    rules = json.loads(Path("results/rules.json").read_text("utf-8"))
+    for name, results in findings(rules, Path("results/tables")).items():
+        path = Path(f"results/findings/{name}.json")
+        if findings_text(results, findings) != path.read_text("utf-8"):
+            raise SystemExit(
+                f"{path} is not what the tables of rule {name} say: one of them was changed after "
+                f"the run. Remove {path}, then make reproduce"
+            )
 
 
 def main() -> None:
-    refuse()
+    finished = [Path("results/rules.json"), Path("results/settings.json"), CLAIMS]
+    if missing := [path for path in finished if not path.is_file()]:
+        raise SystemExit(f"there is no {missing[0]}; expected a finished run: make reproduce")
     made = copies()
+    refuse(made)
     for path in REFERENCE.rglob("*"):
         if path.is_file() and path not in made.values():
             path.unlink()

@@ -3,8 +3,8 @@
 import numpy as np
 import sympy as sp
 
-from replication.step import check, run, truth
-from steps.shared.three_bodies import simulate_three_bodies
+from replication.step import check, power_above, run, truth
+from steps.shared.three_bodies import TOLERANCE, simulate_three_bodies
 from topheavy import (
     STANDARD_GRAVITY,
     Cap,
@@ -79,17 +79,20 @@ def three_bodies(frame, cap, pulse, duration, samples):
     across, up = cap_acceleration(frame.column, block.rotation, block.velocity, turning)
     needed = np.stack([across + ground * STANDARD_GRAVITY, up + STANDARD_GRAVITY], axis=1)
     on_cap = bodies.forces[:, 2:].sum(axis=1) - 2.0 * frame.mass_ratio * needed  # columns of 1 kg
-    return {
-        "mass_ratio": frame.mass_ratio,
-        "pulse": pulse.shape,
-        "impacts": len(impacts),
-        "instants": int(left.sum()),
+    differences = {
         "rotation_apart": apart(block),
         "equivalent_apart": apart(twin),
         "restitution_apart": np.abs(ratios - frame.restitution).max(initial=0.0),
         "force_apart": np.abs(bodies.forces / weight - closed)[flying].max(),
         "cap_balance_apart": np.abs(on_cap)[left].max(initial=0.0) / weight,
         "cap_tilt": np.nanmax(np.abs(bodies.cap_angle)) / alpha,
+    }
+    return {
+        "mass_ratio": frame.mass_ratio,
+        "pulse": pulse.shape,
+        "impacts": len(impacts),
+        "instants": int(left.sum()),
+        **{name: power_above(size, TOLERANCE) for name, size in differences.items()},
         "same_outcome": (bodies.outcome == "overturned") == bool(np.isnan(block.rotation[-1])),
     }
 

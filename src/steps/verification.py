@@ -9,7 +9,7 @@ import math
 import numpy as np
 import sympy as sp
 
-from replication.step import check, run, value
+from replication.step import check, power_above, run, value
 from steps.shared.linear import simulate_linear_exact
 from topheavy import (
     Column,
@@ -24,6 +24,7 @@ from topheavy.bodies.free_rocking import Ending, energy_drift
 from topheavy.derivation import motion
 from topheavy.derivation.notation import alpha, gamma
 from topheavy.ground.shapes import ELEMENTARY
+from topheavy.kernel.step import TOLERANCE
 from topheavy.second import reference
 
 OF_PRINT = 0.005  # of a number: the prints, which have three digits, are that far off at most
@@ -86,8 +87,8 @@ def agreement(settings, tightened):
                         first.overturned != second.overturned
                         for first, second in zip(ours, theirs, strict=True)
                     ),
-                    "median_error": np.median(apart),
-                    "error_99": np.quantile(apart, 0.99),
+                    "median_error": power_above(np.median(apart), TOLERANCE),
+                    "error_99": power_above(np.quantile(apart, 0.99), TOLERANCE),
                 }
 
 
