@@ -15,7 +15,7 @@ from oracle import AT_REST, Flights, ended
 from scipy.integrate import solve_ivp
 
 from topheavy import Column, Pulse, RockingBlock, judge
-from topheavy.kernel.forcing import SHAPES
+from topheavy.kernel.forcing import pulse_waveform
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
 
@@ -104,7 +104,13 @@ def main():
     reference = np.array([peak(exact, *cell) for cell in sample])
     history = sample[int(np.flatnonzero(np.isfinite(reference))[0])]
     w, a = (grid.ravel() for grid in np.meshgrid(FREQUENCIES, AMPLITUDES))
-    grid = [oscillator(BLOCK)], SHAPES["one-sine"], np.zeros(w.size, int), w, a * math.tan(ALPHA)
+    grid = (
+        [oscillator(BLOCK)],
+        pulse_waveform("one-sine"),
+        np.zeros(w.size, int),
+        w,
+        a * math.tan(ALPHA),
+    )
     solvers = {
         "this solver": lambda tolerance: partial(ours, tolerance),
         "SciPy's solve_ivp": lambda tolerance: partial(peak, Scipy(tolerance)),

@@ -20,7 +20,7 @@ import pandas as pd
 from oracle import PulseOracle, RecordOracle
 
 from topheavy import Column, Record, RockingBlock, RockingFrame, overturned_by
-from topheavy.kernel.forcing import SHAPES
+from topheavy.kernel.forcing import pulse_waveform
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
 
@@ -85,7 +85,7 @@ def pulses(job: tuple[int, int, int]) -> list[dict]:
     amplitudes, frequencies = cells_of(number, count, alpha if linearised else math.tan(alpha))
     cells = np.array([amplitudes, frequencies])[:, start : start + PIECE]
     which = np.zeros(cells.shape[1], np.int64)
-    ours = outcomes_of([oscillator(block)], SHAPES[shape], which, cells[1], cells[0], threads=1)
+    ours = outcomes_of([oscillator(block)], pulse_waveform(shape), which, *cells[1::-1], threads=1)
     peaks, flags, counts = ours
     name = f"{shape}{', linearised' if linearised else ''}, α = {pair[0]}°, γ = {pair[1]:g}"
     oracle = PulseOracle(shape, linearised)

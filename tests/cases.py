@@ -10,7 +10,6 @@ import pytest
 import topheavy as th
 from steps.shared.linear import simulate_linear_exact as closed
 from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES
-from topheavy.kernel.forcing import NO_RECORD
 from topheavy.kernel.grid import outcomes_of
 from topheavy.second import reference
 
@@ -57,9 +56,9 @@ def run_alone(*paths):
     return subprocess.run([*command, *map(str, paths)], capture_output=True, text=True, timeout=300)
 
 
-def grid_of(block, shape, scales, amplitudes, record=NO_RECORD, **named):
+def grid_of(block, waveform, scales, amplitudes, **named):
     """Return peak, overturned and impacts of all pairs of a scale and an amplitude."""
     cells = np.repeat(scales, len(amplitudes)), np.tile(amplitudes, len(scales))
     which = np.zeros(cells[0].size, np.int64)
-    found = outcomes_of([block], shape, which, *cells, record, **named)
+    found = outcomes_of([block], waveform, which, *cells, **named)
     return [values.reshape(len(scales), len(amplitudes)) for values in found]

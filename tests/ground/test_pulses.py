@@ -14,7 +14,6 @@ from tests.cases import SIDES
 from topheavy import Pulse
 from topheavy.ground.excitation import Segment, zero_acceleration
 from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES, PULSE_SHAPES, SHAPES
-from topheavy.kernel import forcing
 
 OMEGA = 2.5
 PERIOD = 2 * math.pi / OMEGA
@@ -69,6 +68,43 @@ def test_pulse_lasts_its_number_of_cycles_and_is_zero_after_them(shape):
     assert not one.excitation(one.duration * np.array([1 + 1e-9, 1.25, 100.0])).any()
     assert one.excitation(1.25 * one.duration) == 0
     assert pulse("harmonic").duration == math.inf
+
+
+@pytest.mark.parametrize("shape", ["one-sine", "one-cosine"])
+def test_pulse_of_several_cycles_repeats_its_first_and_then_ends(shape):
+    one, three = pulse(shape), Pulse(shape, 0.3, OMEGA, cycles=3)
+    assert three.duration == pytest.approx(3.0 * PERIOD, rel=1e-15)
+    time = np.linspace(0.0, 0.999 * PERIOD, 501)
+    for cycle in range(3):
+        np.testing.assert_allclose(
+            three.excitation(time + cycle * PERIOD), one.excitation(time), atol=1e-14
+        )
+    assert not three.excitation(PERIOD * np.array([3.001, 3.5])).any()
+    assert three.scaled(2.0) == Pulse(shape, 0.6, OMEGA, cycles=3) != pulse(shape, 0.6)
+    assert "cycles=3" in repr(three)
+    turns = [segment.stop for segment in three.segments(math.inf)][:-1]
+    assert len(turns) == (6 if shape == "one-sine" else 5)
+    assert three.excitation(np.array(turns)) == pytest.approx(
+        0.3 * np.sign(three.excitation(turns))
+    )
+
+
+@pytest.mark.parametrize(
+    ("shape", "cycles", "says"),
+    [
+        ("one-sine", 0, "cycles is 0; expected a whole number from 1 to 100"),
+        ("one-sine", 1.5, "cycles is 1.5; expected a whole number"),
+        ("one-sine", 101, "cycles is 101; expected a whole number from 1 to 100"),
+        (
+            "half-sine",
+            2,
+            "cycles is 2 for shape 'half-sine'; expected 1, or shape one-sine or one-c",
+        ),
+    ],
+)
+def test_number_of_cycles_that_a_pulse_cannot_have_is_refused(shape, cycles, says):
+    with pytest.raises(ValueError, match=says):
+        Pulse(shape, 0.3, OMEGA, cycles=cycles)
 
 
 @EVERY
@@ -139,21 +175,10 @@ def test_pulse_has_one_frequency(frequency, says):
         Pulse("one-sine", 0.3, **frequency)
 
 
-@pytest.mark.parametrize("name", PULSE_SHAPES)
-def test_pulse_and_kernel_have_the_same_wave_of_the_same_length(name):
-    pulse = Pulse(name, 1.0, 1.0)
-    shape = forcing.SHAPES[name]
-    assert pulse.duration == pytest.approx(forcing.LAST_PHASE[shape])
-    for phase in np.linspace(0.0, min(pulse.duration, 20.0), 97)[:-1]:
-        value, _ = forcing.unit_pulse(shape, phase)
-        assert pulse.excitation(phase) == pytest.approx(value, abs=1e-12)
-
-
 def test_lists_are_parts_of_the_one_list():
     finite = (name for name in SHAPES if Pulse(name, 1.0, 1.0).duration < math.inf)
     assert tuple(finite) == FINITE_SHAPES
     assert set(ELEMENTARY) == {name for name in SHAPES if not name.startswith("ricker")}
-    assert tuple(forcing.SHAPES) == PULSE_SHAPES
 
 
 def test_config_takes_the_shapes_that_end_and_no_other():

@@ -6,18 +6,17 @@ import numpy as np
 import pytest
 
 from topheavy import Pulse, Record, RockingBlock
+from topheavy.ground.shapes import PULSE_SHAPES, RICKER_SYMMETRIC
 from topheavy.kernel import forcing
 from topheavy.kernel.forcing import (
-    NO_RECORD,
-    RECORD,
-    SHAPES,
     bounds_after,
     equation,
     forcing_of,
     ground,
     next_uplift,
     piece_of,
-    prepare_record,
+    pulse_waveform,
+    record_waveform,
     unit_pulse,
 )
 from topheavy.kernel.grid import outcome_of, outcomes_of
@@ -26,34 +25,37 @@ from topheavy.kernel.step import TOLERANCE, working_array
 from topheavy.kernel.taylor import ROTATION, Method, State, expand, oscillator
 
 
-def pulse_forcing(shape, amplitude, ratio):
+def pulse_forcing(shape, amplitude, ratio, cycles=1):
     """A pulse with ω/p = `ratio`."""
-    return forcing_of(shape, NO_RECORD, ratio, amplitude, 0.0)
+    return forcing_of(pulse_waveform(shape, cycles), ratio, amplitude, 0.0)
 
 
 RATIO = 2.5  # ω/p; with p = 1 the kernel's time is that of a `Pulse`
-EVERY = pytest.mark.parametrize("shape", sorted(SHAPES))
+PULSES = [*((shape, 1) for shape in PULSE_SHAPES), ("one-sine", 3), ("one-cosine", 7)]
+EVERY = pytest.mark.parametrize(("shape", "cycles"), PULSES)
 
 
-def inside(shape: str, number: int = 97) -> np.ndarray:
+def inside(shape: str, number: int = 97, cycles: int = 1) -> np.ndarray:
     """Times within the pulse, neither its start nor its end."""
-    end = min(pulse_forcing(SHAPES[shape], 1.0, RATIO).end, 6.0)
+    end = min(pulse_forcing(shape, 1.0, RATIO, cycles).end, 6.0 * cycles)
     return end * (np.arange(number) + 0.37) / number
 
 
 @EVERY
-def test_pulse_is_that_of_the_library(shape):
-    pulse, there = Pulse(shape, -0.7, RATIO), pulse_forcing(SHAPES[shape], -0.7, RATIO)
+def test_pulse_is_that_of_the_library(shape, cycles):
+    pulse = Pulse(shape, -0.7, RATIO, cycles=cycles)
+    there = pulse_forcing(shape, -0.7, RATIO, cycles)
     assert there.end == pytest.approx(pulse.duration, rel=1e-15)
-    values = [ground(there, time)[0] for time in inside(shape)]
-    np.testing.assert_allclose(values, pulse.excitation(inside(shape)), rtol=0, atol=1e-14)
+    times = inside(shape, cycles=cycles)
+    values = [ground(there, time)[0] for time in times]
+    np.testing.assert_allclose(values, pulse.excitation(times), rtol=0, atol=1e-14)
 
 
 @EVERY
-def test_every_pulse_solves_its_linear_equation(shape):
+def test_every_pulse_solves_its_linear_equation(shape, cycles):
     """a'' = −c a − (d₀ + d₁ (τ − τ₀)) a' about any τ₀: at τ₀ itself, and away from it."""
-    there, h = pulse_forcing(SHAPES[shape], 1.3, RATIO), 1e-5
-    for time in inside(shape):
+    there, h = pulse_forcing(shape, 1.3, RATIO, cycles), 1e-5
+    for time in inside(shape, cycles=cycles):
         value, rate, _, _ = ground(there, time)
         bend = ground(there, time + h)[1] - ground(there, time - h)[1]
         for start in (time, time - 0.3):
@@ -64,13 +66,13 @@ def test_every_pulse_solves_its_linear_equation(shape):
 
 @EVERY
 @pytest.mark.parametrize("strength", [-0.9, 0.5, 1.0001, -1.2, 2.3, -3.3, 40.0])
-def test_uplifts_are_those_that_the_segments_have(shape, strength):
+def test_uplifts_are_those_that_the_segments_have(shape, cycles, strength):
     level = 0.25
-    there = pulse_forcing(SHAPES[shape], strength * level, RATIO)
-    pulse = Pulse(shape, strength * level, RATIO)
-    for start in (0.0, *inside(shape, 23)):
+    there = pulse_forcing(shape, strength * level, RATIO, cycles)
+    pulse = Pulse(shape, strength * level, RATIO, cycles=cycles)
+    for start in (0.0, *inside(shape, 23, cycles)):
         expected = math.inf
-        for segment in pulse.segments(8.0):
+        for segment in pulse.segments(8.0 * cycles):
             instant = segment.uplift(max(start, segment.start), level)
             if segment.stop > start and instant is not None:
                 expected = instant
@@ -80,7 +82,7 @@ def test_uplifts_are_those_that_the_segments_have(shape, strength):
             assert time == math.inf
         elif expected < math.inf:
             assert time == pytest.approx(expected, rel=1e-13)
-            value = unit_pulse(there.shape, RATIO * time)[0] * strength * level
+            value = unit_pulse(there.wave, RATIO * time)[0] * strength * level
             assert side == -math.copysign(1.0, value)
             assert push == pytest.approx(abs(value) - level, abs=1e-14)
             assert push > 0.0 or rate > 0.0
@@ -90,11 +92,11 @@ def test_uplifts_are_those_that_the_segments_have(shape, strength):
 
 @EVERY
 @pytest.mark.parametrize("strength", [1.0001, -2.0, 12.0])
-def test_a_motion_that_is_cut_off_lifts_when_the_whole_does_or_not_at_all(shape, strength):
-    whole = pulse_forcing(SHAPES[shape], strength * 0.25, RATIO)
-    for start in (0.0, *inside(shape, 7)):
+def test_a_motion_that_is_cut_off_lifts_when_the_whole_does_or_not_at_all(shape, cycles, strength):
+    whole = pulse_forcing(shape, strength * 0.25, RATIO, cycles)
+    for start in (0.0, *inside(shape, 7, cycles)):
         time, *rest = next_uplift(whole, start, 0.25)
-        for cut in inside(shape, 31):
+        for cut in inside(shape, 31, cycles):
             uplift = next_uplift(whole._replace(end=cut), start, 0.25)
             if start < cut and time < cut:
                 assert uplift == pytest.approx((time, *rest), rel=1e-12, abs=1e-14)
@@ -104,20 +106,20 @@ def test_a_motion_that_is_cut_off_lifts_when_the_whole_does_or_not_at_all(shape,
 
 def test_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
     level = math.tan(math.radians(14.0))
-    pulse = pulse_forcing(forcing.RICKER_SYMMETRIC, 3 * level, 2.0)
+    pulse = pulse_forcing("ricker-symmetric", 3 * level, 2.0)
     time, push, rate, side = next_uplift(pulse, 0.0, level)
     phase = 2.0 * time
     assert phase < forcing.RICKER_TURNS[0, 0]
     assert push == 0.0
     assert rate > 0.0
     assert side == 1.0  # the side lobe is negative
-    assert 3 * unit_pulse(forcing.RICKER_SYMMETRIC, phase)[0] == pytest.approx(-1, rel=1e-13)
+    assert 3 * unit_pulse(RICKER_SYMMETRIC, phase)[0] == pytest.approx(-1, rel=1e-13)
 
 
 def test_record_is_that_of_the_library():
     samples = np.random.default_rng(1).normal(size=40)
-    record = prepare_record(samples)
-    there = forcing_of(RECORD, record, 0.07, -1.5, 0.0)
+    record = record_waveform(samples)
+    there = forcing_of(record, 0.07, -1.5, 0.0)
     library = Record(0.07, -1.5 * samples, unit="g")
     assert there.end == pytest.approx(library.duration)
     times = np.linspace(0.0, there.end, 333)[:-1]
@@ -147,7 +149,7 @@ def shaken(seed, ratio, samples=700, upward=500):
     """A horizontal record of largest 1, a vertical one of largest 0.5, and the two prepared."""
     across, up = waves(seed, samples), waves(seed + 50, round(upward / ratio), ratio * STEP)
     across, up = across / np.abs(across).max(), 0.5 * up / np.abs(up).max()
-    return across, up, prepare_record(across, up, ratio)
+    return across, up, record_waveform(across, up, ratio)
 
 
 def push_at(motion, time, level):
@@ -161,7 +163,7 @@ def push_at(motion, time, level):
 def test_next_uplift_is_the_first_time_that_the_push_is_positive(ratio, factor):
     """Against a fine scan of |a| − G level, from many times on."""
     _, _, both = shaken(2, ratio)
-    there = forcing_of(RECORD, both, STEP, factor, 0.9)
+    there = forcing_of(both, STEP, factor, 0.9)
     times = np.linspace(0.0, there.end, 80_001)[:-1]
     push = np.array([push_at(there, time, 0.2) for time in times])
     seen = set()
@@ -182,7 +184,7 @@ def test_next_uplift_is_the_first_time_that_the_push_is_positive(ratio, factor):
 
 def test_bounds_hold_for_the_rest_of_both_records():
     _, _, both = shaken(3, 0.731)
-    there = forcing_of(RECORD, both, STEP, 2.0, -1.1)
+    there = forcing_of(both, STEP, 2.0, -1.1)
     times = np.linspace(0.0, there.end, 4001)[:-1]
     weights = np.array([ground(there, time)[2] for time in times])
     pushes = np.array([abs(ground(there, time)[0]) for time in times]) / weights
@@ -191,7 +193,7 @@ def test_bounds_hold_for_the_rest_of_both_records():
         assert strength >= pushes[k:].max()
         assert heaviest >= weights[k:].max()
     assert bounds_after(there, there.end) == (0.0, 1.0)
-    falling = forcing_of(RECORD, both, STEP, 2.0, 2.0)
+    falling = forcing_of(both, STEP, 2.0, 2.0)
     assert bounds_after(falling, 0.0)[0] == math.inf
 
 
@@ -219,8 +221,8 @@ def test_rest_is_not_called_when_gravity_is_about_to_fall():
     across, up = np.full(200, 0.9 * BLOCK.level), np.zeros(200)
     up[20:] = -0.2
     for lift, expected in ((1.0, False), (0.0, True), (0.04, True)):
-        both = prepare_record(across, up, 1.0)
-        there = forcing_of(RECORD, both, 1e-3, 1.0, lift)
+        both = record_waveform(across, up, 1.0)
+        there = forcing_of(both, 1e-3, 1.0, lift)
         for side in (-1.0, 1.0):
             push = -side * 0.9 * BLOCK.level - BLOCK.level
             state = State(0.0185, side, 0.0, 2e-6, 0.0, 1.0, push, 0.0, 1.0, 0.0)
@@ -242,22 +244,21 @@ def test_blocks_of_both_equations_each_have_their_own_factors_on_both_records(ra
     lifts = rng.uniform(-1.8, 1.8, which.size)
     _, _, both = shaken(4, ratio)
     outcomes = outcomes_of(
-        blocks, RECORD, which, steps, factors, both, lifts=lifts, tolerance=tolerance
+        blocks, both, which, steps, factors, verticals=lifts, tolerance=tolerance
     )
     for k in range(which.size):
-        one = (blocks[which[k]], RECORD, steps[k], factors[k], both)
-        alone = outcome_of(*one, lift=lifts[k], tolerance=tolerance)
+        one = (blocks[which[k]], both, steps[k], factors[k])
+        alone = outcome_of(*one, vertical=lifts[k], tolerance=tolerance)
         assert outcomes[1][k] == alone.overturned
         np.testing.assert_array_equal(outcomes[0][k], alone.peak)
         assert outcomes[2][k] == alone.impacts
-        plain = outcome_of(*one[:4], prepare_record(shaken(4, ratio)[0]), tolerance=tolerance)
+        across = record_waveform(shaken(4, ratio)[0])
+        plain = outcome_of(one[0], across, *one[2:], tolerance=tolerance)
         if not (alone.overturned or plain.overturned) and plain.peak > 0.05:
             assert abs(alone.peak - plain.peak) > 1e-6
     assert 0.1 < outcomes[1].mean() < 0.9
     back = slice(None, None, -1)
     cells = (which[back], steps[back], factors[back])
-    again = outcomes_of(
-        blocks, RECORD, *cells, both, lifts=lifts[back], tolerance=tolerance, threads=2
-    )
+    again = outcomes_of(blocks, both, *cells, verticals=lifts[back], tolerance=tolerance, threads=2)
     for one, other in zip(outcomes, again, strict=True):
         np.testing.assert_array_equal(one, other[back])

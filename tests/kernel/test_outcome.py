@@ -9,8 +9,16 @@ from hypothesis import strategies as st
 
 from topheavy import Pulse, Record, RockingBlock, judge, overturned_by, simulate
 from topheavy.bodies import free_rocking
+from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.kernel import forcing, history
-from topheavy.kernel.forcing import NO_RECORD, Forcing, forcing_of, ground, next_uplift
+from topheavy.kernel.forcing import (
+    NO_RECORD,
+    Forcing,
+    forcing_of,
+    ground,
+    next_uplift,
+    pulse_waveform,
+)
 from topheavy.kernel.grid import outcome_of
 from topheavy.kernel.rest import MIN_COUNTED_PEAK, comes_to_rest
 from topheavy.kernel.step import (
@@ -29,18 +37,19 @@ from topheavy.kernel.taylor import Method, State, evaluate, oscillator
 few = settings(max_examples=40, deadline=None, derandomize=True, database=None)
 STILL = Forcing(forcing.NONE, 0.0, 1.0, 0.0, 1.0, 0.0, NO_RECORD)
 BLOCK = RockingBlock(1.0, 0.25, 0.9)
-shapes = st.sampled_from(sorted(set(forcing.SHAPES) - {"harmonic"}))
+BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
+shapes = st.sampled_from(sorted(FINITE_SHAPES))
 
 
 def pulse_forcing(shape, amplitude, ratio):
     """A pulse with ω/p = `ratio`."""
-    return forcing_of(shape, NO_RECORD, ratio, amplitude, 0.0)
+    return forcing_of(pulse_waveform(shape), ratio, amplitude, 0.0)
 
 
 def shaken(block, shape, strength, ratio, tolerance=TOLERANCE):
     """The outcome under a pulse of `strength` times the uplift level, at ω/p = `ratio`."""
-    there, number = oscillator(block), forcing.SHAPES[shape]
-    return outcome_of(there, number, ratio, strength * there.level, tolerance=tolerance)
+    there, waveform = oscillator(block), pulse_waveform(shape)
+    return outcome_of(there, waveform, ratio, strength * there.level, tolerance=tolerance)
 
 
 def aloft(block, rotation, velocity, push=None):
@@ -92,7 +101,7 @@ def test_uplift_makes_no_impact_of_its_own(degrees, linearised):
     w = working_array()
     for excess in (1e-9, 1e-6, 1e-3, 0.5, 5.0, 1e3):
         for ratio in (0.3, 1.0, 3.0, 9.0):
-            pulse = pulse_forcing(forcing.ONE_SINE, block.level * (1 + excess), ratio)
+            pulse = pulse_forcing("one-sine", block.level * (1 + excess), ratio)
             time, push, rate, _ = forcing.next_uplift(pulse, 0.0, block.level)
             state = State(time, 1.0, 0.0, 0.0, 0.0, 1.0, push, rate, 1.0, 0.0)
             above = 2 * math.acos(1 / (1 + excess)) / ratio
@@ -114,6 +123,23 @@ def test_the_side_is_a_state_of_its_own():
     assert after.push == pytest.approx(-0.02 - there.level)
     assert after.rate == -0.5
     assert after_impact(there, before._replace(velocity=1e-18)).velocity == 0.0
+
+
+@BOTH
+@pytest.mark.parametrize("shape", ["one-sine", "one-cosine"])
+def test_pulse_of_several_cycles_is_the_record_of_its_samples(shape, block):
+    seen = set()
+    for strength in (1.3, 2.5, 3.5, 9.0):
+        pulse = Pulse(shape, strength * block.uplift_acceleration, 3.0, cycles=3)
+        time = np.linspace(0.0, pulse.duration, 30_001)
+        outcome, sampled = (
+            judge(block, pulse),
+            judge(block, Record(time[1], pulse.excitation(time))),
+        )
+        assert (outcome.overturned, outcome.impacts) == (sampled.overturned, sampled.impacts)
+        np.testing.assert_allclose(outcome.peak, sampled.peak, rtol=0, atol=1e-5)
+        seen.add(outcome.overturned)
+    assert len(seen) == 2
 
 
 def test_beyond_alpha_is_survived():
@@ -149,7 +175,7 @@ def test_peaks_are_good_to_1e_9_alpha_at_the_default_tolerance():
 
 def test_overturning_is_never_certain_where_the_ground_could_bring_it_back():
     """Flat before the balance: an exact block that is pulled back by 5 g has none."""
-    pulse = pulse_forcing(forcing.CONSTANT, 50.0, 0.1)
+    pulse = pulse_forcing("constant", 50.0, 0.1)
     state = aloft(BLOCK, 0.3, 1.0)._replace(time=1.0)
     assert not is_certain_to_overturn(oscillator(BLOCK), pulse, state)
 
@@ -181,7 +207,7 @@ def rests(block, motion, *state) -> bool:
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_rest_is_not_called_when_the_level_is_about_to_be_passed(before, velocity, expected, sign):
     """The velocity alone does not tell: it depends on what is left of the time to the uplift."""
-    pulse = pulse_forcing(forcing.ONE_SINE, sign * 2 * RESTING.level, 1.0)
+    pulse = pulse_forcing("one-sine", sign * 2 * RESTING.level, 1.0)
     time = next_uplift(pulse, 0.0, RESTING.level)[0] - before
     for side in (-1.0, 1.0):
         assert rests(RESTING, pulse, time, velocity, side) == expected
@@ -197,7 +223,7 @@ def test_what_is_called_rest_does_bounce_to_rest_before_the_next_uplift(linearis
                 1.0, float(random.uniform(0.05, 0.4)), float(random.uniform(0, 0.9)), linearised
             )
         )
-        pulse = pulse_forcing(forcing.ONE_SINE, float(random.uniform(1.0, 3.0)) * block.level, 2.0)
+        pulse = pulse_forcing("one-sine", float(random.uniform(1.0, 3.0)) * block.level, 2.0)
         first = next_uplift(pulse, 0.0, block.level)[0]
         time = first * (1 - 10.0 ** float(random.uniform(-4, 0)))
         velocity = block.slenderness * 10.0 ** float(random.uniform(-9, -3))
@@ -239,9 +265,6 @@ def test_block_that_is_lifted_by_the_last_digit_of_a_record_comes_to_rest(restit
         assert end.peak < 1e-12 * block.slenderness
         assert overturned_by(block, record, [1.0]).tolist() == [False]
         assert simulate(block, record, samples=2).outcome == "rests"
-
-
-BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 
 
 @BOTH

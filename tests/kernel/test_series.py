@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from numpy.polynomial import polynomial
 
 from topheavy import RockingBlock
-from topheavy.kernel import forcing
+from topheavy.ground.shapes import PULSE_SHAPES
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
-from topheavy.kernel.forcing import NO_RECORD, SHAPES, equation, forcing_of, ground, next_uplift
+from topheavy.kernel.forcing import equation, forcing_of, ground, next_uplift, pulse_waveform
 from topheavy.kernel.grid import record_order
 from topheavy.kernel.march import derivatives, powers
 from topheavy.kernel.step import (
@@ -40,7 +40,7 @@ ORDER = MAX_ORDER
 
 def pulse_forcing(shape, amplitude, ratio):
     """A pulse with ω/p = `ratio`."""
-    return forcing_of(shape, NO_RECORD, ratio, amplitude, 0.0)
+    return forcing_of(pulse_waveform(shape), ratio, amplitude, 0.0)
 
 
 def state_of(block, motion, time, side, rotation, velocity):
@@ -60,9 +60,9 @@ def series(block, motion, time, state, is_straight=False, order=ORDER):
 
 @BOTH
 @pytest.mark.parametrize("side", [-1.0, 1.0])
-@pytest.mark.parametrize("shape", sorted(SHAPES))
+@pytest.mark.parametrize("shape", PULSE_SHAPES)
 def test_series_solves_the_equation_of_motion_as_it_is_printed(shape, side, block):
-    motion, alpha = pulse_forcing(SHAPES[shape], 0.6, 2.5), block.slenderness
+    motion, alpha = pulse_forcing(shape, 0.6, 2.5), block.slenderness
     start = 0.4 * min(motion.end, 6.0)
     straight = shape == "constant"
     state = state_of(block, motion, start, side, 0.1, -0.07)
@@ -82,7 +82,7 @@ def test_series_solves_the_equation_of_motion_as_it_is_printed(shape, side, bloc
 
 @pytest.mark.parametrize("order", [6, 9, 12])
 def test_error_of_a_step_falls_with_the_order_of_the_series(order):
-    motion = pulse_forcing(forcing.ONE_SINE, 0.6, 2.5)
+    motion = pulse_forcing("one-sine", 0.6, 2.5)
     state = state_of(BLOCK, motion, 0.3, -1.0, 0.1, -0.07)
     errors = []
     for step in (0.4, 0.2):
@@ -102,7 +102,7 @@ def test_error_of_a_step_falls_with_the_order_of_the_series(order):
 
 @pytest.mark.parametrize("step", [0.01, 0.05, 0.2])
 def test_order_for_a_record_keeps_the_tolerance_of_the_second_derivative(step):
-    motion, order = pulse_forcing(forcing.CONSTANT, 0.6, 2.5), record_order(step)
+    motion, order = pulse_forcing("constant", 0.6, 2.5), record_order(step)
     w = series(BLOCK, motion, 0.3, state_of(BLOCK, motion, 0.3, -1.0, 0.1, -0.07), True)
     short, full = (
         polynomial.polyval(step, polynomial.polyder(w[ROTATION, : n + 1], 2))
@@ -119,7 +119,7 @@ def test_uplift_starts_outward_however_slight_the_push(degrees, linearised):
     block = RockingBlock(2.0, math.radians(degrees), 0.9, linearised)
     level, cosine = block.uplift_acceleration, oscillator(block).cosine
     for excess in (1e-9, 1e-6, 1e-3, 0.5, 5.0, 1e3):
-        for shape in (forcing.ONE_SINE, forcing.RICKER_SYMMETRIC, forcing.RICKER_ANTISYMMETRIC):
+        for shape in ("one-sine", "ricker-symmetric", "ricker-antisymmetric"):
             pulse = pulse_forcing(shape, level * (1 + excess), 1.7)
             time, push, rate, _ = next_uplift(pulse, 0.0, level)
             if time == math.inf:

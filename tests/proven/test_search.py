@@ -64,6 +64,17 @@ def test_outcomes_are_those_of_the_kernel(shape, block):
     assert len(seen) == 2
 
 
+@pytest.mark.parametrize("shape", ["one-sine", "one-cosine"])
+def test_outcomes_under_several_cycles_are_those_of_the_kernel(shape):
+    seen = set()
+    for scale in (1.2, 2.1, 3.2, 5.0):
+        pulse = th.Pulse(shape, scale * BLOCK.uplift_acceleration, 7.0, cycles=3)
+        outcome = again(certified(BLOCK, pulse))
+        assert (outcome == "overturns") == th.judge(BLOCK, pulse).overturned
+        seen.add(outcome)
+    assert len(seen) == 2
+
+
 @pytest.mark.parametrize(
     "factor", [(0.27282271, 0.27282272), (0.2728, 0.2729), (0.2728, 0.3), (0.1, 0.28)]
 )

@@ -15,7 +15,7 @@ import numba
 from numba import types
 
 from topheavy.bodies import free_rocking
-from topheavy.ground import shapes
+from topheavy.ground import pulses, shapes
 
 
 def cache_folder() -> Path:
@@ -30,7 +30,7 @@ def state(sources: Path, *others: Path) -> str:
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()
 
 
-SHARED_SOURCES = Path(shapes.__file__), Path(free_rocking.__file__)
+SHARED_SOURCES = [Path(str(module.__file__)) for module in (shapes, pulses, free_rocking)]
 
 
 def writable_folder() -> Path | None:

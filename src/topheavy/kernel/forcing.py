@@ -20,29 +20,30 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy.ground import shapes
+from topheavy.ground.pulses import unit_wave
+from topheavy.ground.shapes import (
+    CENTRE,
+    CONSTANT,
+    COSINE,
+    RICKER_ANTISYMMETRIC,
+    RICKER_SYMMETRIC,
+    SHAPES,
+    WAVES,
+)
 from topheavy.kernel.compiled import compiled
 
 Array = NDArray[np.float64]
-#: The number of each shape of `topheavy.ground.shapes`; a record and no motion have numbers, too.
-SHAPES = {name: number for number, name in enumerate(shapes.SHAPES)}
-ONE_SINE, ONE_COSINE, HALF_SINE = SHAPES["one-sine"], SHAPES["one-cosine"], SHAPES["half-sine"]
-CONSTANT, HARMONIC = SHAPES["constant"], SHAPES["harmonic"]
-RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC = SHAPES["ricker-symmetric"], SHAPES["ricker-antisymmetric"]
-RECORD, NONE = range(len(SHAPES), len(SHAPES) + 2)
-#: Phase ωt at which each shape ends (a record ends by its own time, no motion at once).
-LAST_PHASE = np.array([*(shape.half_periods for shape in shapes.SHAPES.values()), 0, 0]) * math.pi
-RICKER_CENTRE = 4.5 * math.pi
-#: y = κ (ωt − centre) is the variable in which a Ricker wavelet is a derivative of exp(−y²).
-KAPPA = np.zeros(len(SHAPES))
-KAPPA[RICKER_SYMMETRIC], KAPPA[RICKER_ANTISYMMETRIC] = 1 / 2, 1 / math.sqrt(6)
-#: The order of that derivative.
-DERIVATIVE = np.zeros(len(SHAPES), dtype=np.int64)
-DERIVATIVE[RICKER_SYMMETRIC], DERIVATIVE[RICKER_ANTISYMMETRIC] = 2, 3
-#: The amplitude of the antisymmetric wavelet is normalised by its own peak, to five digits.
-ANTISYMMETRIC_PEAK = 1.3801
-#: A pulse that ends has at most five monotone pieces, each of which rounding may cut in two. In as
-#: many of a harmonic's, |a| reaches its largest value more than once.
+#: A record and no motion have numbers behind those of the waves.
+RECORD, NONE = range(len(WAVES), len(WAVES) + 2)
+#: The equation of each wave by the phase ωt; see `topheavy.ground.shapes`.
+STIFFNESS = np.array([*(wave.stiffness for wave in WAVES.values()), 0.0, 0.0])
+DRAG = np.array([*(wave.drag for wave in WAVES.values()), 0.0, 0.0])
+#: Phases at which a Ricker wavelet turns, a row for each, filled up by infinity.
+RICKER_TURNS = np.array(
+    [(*WAVES[name].turns, math.inf)[:4] for name in ("ricker-symmetric", "ricker-antisymmetric")]
+)
+#: A Ricker wavelet has at most five monotone pieces, each of which rounding may cut in two. In as
+#: many of a sine's or cosine's, |a| reaches its largest value more than once.
 MAX_PIECES = 10
 #: Newton's steps for a crossing, of which six are usual. As many halvings leave 2⁻⁶⁴ of a piece.
 MAX_NEWTON_STEPS = 64
@@ -51,12 +52,23 @@ UNIT_BOUND = 1.0001
 #: Samples of two records that are as near, over the duration, are at the same time.
 SAME_TIME = 1e-9
 
-#: Phases at which a Ricker wavelet turns: roots of the next Hermite polynomial.
-_SYMMETRIC = 2 * math.sqrt(1.5)
-_INNER, _OUTER = (math.sqrt(6) * math.sqrt((3 + sign * math.sqrt(6)) / 2) for sign in (-1, 1))
-RICKER_TURNS = RICKER_CENTRE + np.array(
-    [[-_SYMMETRIC, 0.0, _SYMMETRIC, np.inf], [-_OUTER, -_INNER, _INNER, _OUTER]]
-)
+
+class Waveform(NamedTuple):
+    """What a ground motion is, apart from its scale in time and its amplitude.
+
+    Attributes
+    ----------
+    wave : int
+        The place of a pulse's wave in `shapes.WAVES`, or `RECORD`, or `NONE`.
+    last_phase : float
+        The phase ωt at which a pulse ends.
+    record : ndarray
+        As `prepare_record` returns it; `NO_RECORD` of a pulse.
+    """
+
+    wave: int
+    last_phase: float
+    record: Array
 
 
 class Forcing(NamedTuple):
@@ -64,8 +76,8 @@ class Forcing(NamedTuple):
 
     Attributes
     ----------
-    shape : int
-        A value of `SHAPES`, `RECORD` or `NONE`.
+    wave : int
+        See `Waveform`.
     amplitude : float
         Of a pulse, g; of a record, the factor on it.
     frequency : float
@@ -77,10 +89,10 @@ class Forcing(NamedTuple):
     vertical : float
         The factor on the vertical record.
     record : ndarray
-        As `prepare_record` returns it; `NO_RECORD` of a pulse.
+        See `Waveform`.
     """
 
-    shape: int
+    wave: int
     amplitude: float
     frequency: float
     end: float
@@ -98,13 +110,28 @@ RUN_LENGTH = 32
 A_START, A_END, V_START, V_END, TIME, A_MAX, V_MAX, A_MAX_OF_RUN, V_MAX_OF_RUN = range(9)
 
 
+NO_MOTION = Waveform(NONE, 0.0, NO_RECORD)
+
+
+def pulse_waveform(shape: str, cycles: int = 1) -> Waveform:
+    """Return the waveform of a pulse shape."""
+    wave, half_periods = list(WAVES).index(SHAPES[shape].wave), SHAPES[shape].half_periods
+    return Waveform(wave, cycles * half_periods * math.pi, NO_RECORD)
+
+
+def record_waveform(samples: Array, vertical: Array | None = None, ratio: float = 1.0) -> Waveform:
+    """Return the waveform of a record; see `prepare_record`."""
+    return Waveform(RECORD, 0.0, prepare_record(samples, vertical, ratio))
+
+
 @compiled
-def forcing_of(shape, record, scale, amplitude, vertical):
+def forcing_of(waveform, scale, amplitude, vertical):
     """Return the `Forcing` of a pulse with ω/p = `scale`, or of a record with p Δt = `scale`."""
-    if shape == RECORD:
+    wave, last_phase, record = waveform
+    if wave == RECORD:
         end = record[TIME, record.shape[1] - 1] * scale
-        return Forcing(shape, amplitude, 1.0, end, scale, vertical, record)
-    return Forcing(shape, amplitude, scale, LAST_PHASE[shape] / scale, 1.0, 0.0, record)
+        return Forcing(wave, amplitude, 1.0, end, scale, vertical, record)
+    return Forcing(wave, amplitude, scale, last_phase / scale, 1.0, 0.0, record)
 
 
 def prepare_record(samples: Array, vertical: Array | None = None, ratio: float = 1.0) -> Array:
@@ -151,21 +178,7 @@ def _bounds(start: Array, end: Array) -> tuple[Array, Array]:
     return np.maximum.accumulate(sizes[::-1])[::-1], runs
 
 
-@compiled
-def unit_pulse(shape, phase):
-    """Return the pulse of unit amplitude and its derivative by the phase ωt."""
-    if shape in (ONE_SINE, HALF_SINE, HARMONIC):
-        return math.sin(phase), math.cos(phase)
-    if shape == ONE_COSINE:
-        return math.cos(phase), -math.sin(phase)
-    if shape == CONSTANT:
-        return 1.0, 0.0
-    y = KAPPA[shape] * (phase - RICKER_CENTRE)
-    bell = math.exp(-y * y)
-    if shape == RICKER_SYMMETRIC:
-        return (1 - 2 * y * y) * bell, KAPPA[shape] * y * (4 * y * y - 6) * bell
-    scale = math.sqrt(2) / ANTISYMMETRIC_PEAK * bell
-    return (scale * y * (2 * y * y - 3), scale * KAPPA[shape] * (-3 + y * y * (12 - 4 * y * y)))
+unit_pulse = compiled(unit_wave)
 
 
 @compiled
@@ -200,41 +213,32 @@ def ground_of_piece(forcing, piece):
 @compiled
 def ground(forcing, time):
     """Return a, a', G and G' at `time`; at a sample of a record, those of the next piece."""
-    if forcing.shape == NONE or time >= forcing.end:
+    if forcing.wave == NONE or time >= forcing.end:
         return 0.0, 0.0, 1.0, 0.0
-    if forcing.shape == RECORD:
+    if forcing.wave == RECORD:
         piece = min(piece_of(forcing, time), forcing.record.shape[1] - 2)
         value, rate, gravity, change = ground_of_piece(forcing, piece)
         after = time - piece_start(forcing, piece)
         return value + rate * after, rate, gravity + change * after, change
-    value, rate = unit_pulse(forcing.shape, forcing.frequency * time)
+    value, rate = unit_pulse(forcing.wave, forcing.frequency * time)
     return forcing.amplitude * value, forcing.amplitude * forcing.frequency * rate, 1.0, 0.0
 
 
 @compiled
 def equation(forcing, time):
     """Return c, d₀, d₁ of the equation that the ground acceleration solves, about `time`."""
-    shape = forcing.shape
-    if shape in (CONSTANT, RECORD, NONE):
-        return 0.0, 0.0, 0.0
     square = forcing.frequency * forcing.frequency
-    if shape in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
-        kappa2 = KAPPA[shape] * KAPPA[shape]
-        offset = forcing.frequency * time - RICKER_CENTRE
-        return (
-            2 * (DERIVATIVE[shape] + 1) * kappa2 * square,
-            2 * kappa2 * offset * forcing.frequency,
-            2 * kappa2 * square,
-        )
-    return square, 0.0, 0.0
+    stiffness, drag = STIFFNESS[forcing.wave] * square, DRAG[forcing.wave]
+    lag = forcing.frequency * time - CENTRE
+    return stiffness, drag * lag * forcing.frequency, drag * square
 
 
 @compiled
 def bounds_after(forcing, time):
     """Return bounds on |a|/G and on G from `time` on."""
-    if forcing.shape == NONE or time >= forcing.end:
+    if forcing.wave == NONE or time >= forcing.end:
         return 0.0, 1.0
-    if forcing.shape == RECORD:
+    if forcing.wave == RECORD:
         k = piece_of(forcing, time)
         change = abs(forcing.vertical) * forcing.record[V_MAX, k]
         if change >= 1.0:
@@ -246,21 +250,21 @@ def bounds_after(forcing, time):
 @compiled
 def next_turn(forcing, time):
     """Return the end of the monotone piece of a pulse that begins at `time` (or holds it)."""
-    shape, frequency = forcing.shape, forcing.frequency
-    if shape in (CONSTANT, NONE):
+    wave, frequency = forcing.wave, forcing.frequency
+    if wave in (CONSTANT, NONE):
         return forcing.end
-    if shape in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
-        for turn in RICKER_TURNS[shape - RICKER_SYMMETRIC]:
+    if wave in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
+        for turn in RICKER_TURNS[wave - RICKER_SYMMETRIC]:
             if turn / frequency > time:
                 return min(turn / frequency, forcing.end)
         return forcing.end
-    return min(_crest(shape, frequency, time), forcing.end)
+    return min(_crest(wave, frequency, time), forcing.end)
 
 
 @compiled
-def _crest(shape, frequency, time):
+def _crest(wave, frequency, time):
     """Return when a sine or a cosine turns next, be it cut off before."""
-    shift = 0.0 if shape == ONE_COSINE else 0.5
+    shift = 0.0 if wave == COSINE else 0.5
     half_turns = math.floor(frequency * time / math.pi - shift) + 1
     turn = (half_turns + shift) * math.pi / frequency
     if turn <= time:
@@ -287,10 +291,8 @@ def next_uplift(forcing, time, level):
     side : float
         The side s = −sgn a to which the block rocks.
     """
-    if forcing.shape == RECORD:
+    if forcing.wave == RECORD:
         return _next_uplift_of_record(forcing, time, level)
-    if forcing.shape == HARMONIC and abs(forcing.amplitude) <= level:
-        return np.inf, 0.0, 0.0, 1.0
     value, rate, _, _ = ground(forcing, time)
     for _ in range(MAX_PIECES):
         if time >= forcing.end:
@@ -299,7 +301,7 @@ def next_uplift(forcing, time, level):
             sign = math.copysign(1.0, value)
             return time, abs(value) - level, sign * rate, -sign
         turn = next_turn(forcing, time)
-        last = forcing.amplitude * unit_pulse(forcing.shape, forcing.frequency * turn)[0]
+        last = forcing.amplitude * unit_pulse(forcing.wave, forcing.frequency * turn)[0]
         if abs(last) > level:
             sign = math.copysign(1.0, last)
             time, rate = _crossing(forcing, time, turn, sign, level)
@@ -350,15 +352,15 @@ def _next_uplift_of_record(forcing, time, level):
 @compiled
 def _crossing(forcing, low, high, sign, level):
     """Return the time at which sign·a rises through `level` in a monotone piece, and its rate."""
-    shape, strength = forcing.shape, abs(forcing.amplitude)
-    if shape < RICKER_SYMMETRIC:  # |a| = A cos(distance from the turn)
+    wave, strength = forcing.wave, abs(forcing.amplitude)
+    if wave < RICKER_SYMMETRIC:  # |a| = A cos(distance from the turn)
         root = math.sqrt((strength - level) * (strength + level))
-        crest = _crest(shape, forcing.frequency, low)
+        crest = _crest(wave, forcing.frequency, low)
         time = crest - math.atan2(root, level) / forcing.frequency
         return max(time, low), forcing.frequency * root
     time = high
     for number in range(2 * MAX_NEWTON_STEPS):  # Newton's step where it stays inside, else halving
-        value, rate = unit_pulse(shape, forcing.frequency * time)
+        value, rate = unit_pulse(wave, forcing.frequency * time)
         excess = sign * forcing.amplitude * value - level
         rate *= sign * forcing.amplitude * forcing.frequency
         if excess > 0.0:

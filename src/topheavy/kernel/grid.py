@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from topheavy.bodies.free_rocking import Ending
+from topheavy.ground.shapes import WAVES
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, Array, Forcing, forcing_of
+from topheavy.kernel.forcing import RECORD, Array, Forcing, Waveform, forcing_of
 from topheavy.kernel.history import (
     FROM_REST,
     NO_RATIOS,
@@ -77,13 +78,12 @@ def record_order(step: float, tolerance: float = TOLERANCE) -> int:
 
 def outcomes_of(
     blocks: Sequence[Oscillator],
-    shape: int,
+    waveform: Waveform,
     which: NDArray[np.int64],
     scales: Array,
     amplitudes: Array,
-    record: Array = NO_RECORD,
     *,
-    lifts: Array | None = None,
+    verticals: Array | None = None,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
 ) -> Results:
@@ -91,15 +91,13 @@ def outcomes_of(
 
     Parameters
     ----------
-    shape : int
-        A value of `forcing.SHAPES`, or `forcing.RECORD`.
+    waveform : Waveform
+        That of all histories.
     which : array of int, shape (n,)
         The block of each history, by its place in `blocks`.
     scales, amplitudes : array, shape (n,)
         Of a pulse, ω/p and g; of a record, p Δt and the factor on it.
-    record : array
-        As `forcing.prepare_record` gives it.
-    lifts : array, shape (n,), optional
+    verticals : array, shape (n,), optional
         The factors on the vertical record; 0 unless given.
     threads : int, optional
         As `cores`, unless given.
@@ -112,19 +110,20 @@ def outcomes_of(
     size = which.size
     results = Results(np.empty(size), np.empty(size, bool), np.empty(size, np.int64))
     orders = np.full(size, PULSE_ORDER)
-    if shape == RECORD:
+    is_record = waveform.wave == RECORD
+    if is_record:
         steps, at = np.unique(scales, return_inverse=True)
         orders = np.array([record_order(step, tolerance) for step in steps.tolist()])[at]
-    verticals = np.zeros(size) if lifts is None else lifts
+    verticals = np.zeros(size) if verticals is None else verticals
     # In C order, as numba would compile all anew for arrays that are not.
     cells = Cells(*map(np.ascontiguousarray, (which, scales, amplitudes, verticals, orders)))
     rows = np.array([tuple(map(float, block)) for block in blocks])
 
     def judge_batch(first: int, last: int, w: Array) -> int:
-        return int(judge_cells(w, tolerance, rows, shape, record, cells, first, last, results))
+        return int(judge_cells(w, tolerance, rows, waveform, cells, first, last, results))
 
-    batches = max(1, min(MAX_BATCHES, size // (MIN_FACTORS if shape == RECORD else MIN_PULSES)))
-    if batches == 1 and size * max(record.shape[1], 1) <= MIN_THREADED_SAMPLES:
+    batches = max(1, min(MAX_BATCHES, size // (MIN_FACTORS if is_record else MIN_PULSES)))
+    if batches == 1 and size * max(waveform.record.shape[1], 1) <= MIN_THREADED_SAMPLES:
         unresolved = [judge_batch(0, size, working_array())]
     else:
         ends = [number * size // batches for number in range(batches + 1)]
@@ -133,12 +132,12 @@ def outcomes_of(
     for cell in unresolved:
         if cell >= 0:
             block, scale, amplitude = blocks[which[cell]], scales[cell], amplitudes[cell]
-            raise _unresolved(block, shape, float(scale), float(amplitude))
+            raise _unresolved(block, waveform, float(scale), float(amplitude))
     return results
 
 
 @compiled(nogil=True)
-def judge_cells(w, tolerance, blocks, shape, record, cells, first, last, results):
+def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results):
     """Fill the results from the first cell to the one before the last; stop where one is given up.
 
     Returns
@@ -150,8 +149,8 @@ def judge_cells(w, tolerance, blocks, shape, record, cells, first, last, results
         row = blocks[cells.block[cell]]
         block = Oscillator(row[0], row[1], row[2], row[3], row[4], row[5], row[6] != 0.0)
         scale, amplitude, vertical = cells.scale[cell], cells.amplitude[cell], cells.vertical[cell]
-        forcing = forcing_of(shape, record, scale, amplitude, vertical)
-        method = Method(cells.order[cell], tolerance, is_straight(shape))
+        forcing = forcing_of(waveform, scale, amplitude, vertical)
+        method = Method(cells.order[cell], tolerance, is_straight(waveform.wave))
         history = follow(w, method, block, forcing, NO_RATIOS, FROM_REST, NO_SAMPLES, True)
         if history.result == UNRESOLVED:
             return cell
@@ -172,20 +171,19 @@ def cores() -> int:
 
 def outcome_of(
     block: Oscillator,
-    shape: int,
+    waveform: Waveform,
     scale: float,
     amplitude: float,
-    record: Array = NO_RECORD,
     *,
-    lift: float = 0.0,
+    vertical: float = 0.0,
     ratios: Array = NO_RATIOS,
     tolerance: float = TOLERANCE,
 ) -> Ending:
     """Return the outcome of one history; see `outcomes_of` and `follow`."""
-    forcing = forcing_of(shape, record, scale, amplitude, lift)
+    forcing = forcing_of(waveform, scale, amplitude, vertical)
     history = followed(block, forcing, tolerance, ratios)
     if history.result == UNRESOLVED:
-        raise _unresolved(block, shape, scale, amplitude)
+        raise _unresolved(block, waveform, scale, amplitude)
     overturned = history.result == OVERTURNED
     return Ending(overturned, math.nan if overturned else history.peak, history.impacts)
 
@@ -199,9 +197,9 @@ def followed(
     samples: Samples | None = None,
 ) -> History:
     """Return the history of a block; it is only judged unless there are `samples` to fill."""
-    is_record = forcing.shape == RECORD
+    is_record = forcing.wave == RECORD
     order = record_order(forcing.step, tolerance) if is_record else PULSE_ORDER
-    method = Method(order, tolerance, is_straight(forcing.shape))
+    method = Method(order, tolerance, is_straight(forcing.wave))
     is_judged, samples = samples is None, samples or NO_SAMPLES
 
     def call(w: Array) -> History:
@@ -212,11 +210,15 @@ def followed(
     return in_threads([call])[0] if is_long else call(working_array())
 
 
-def _unresolved(block: Oscillator, shape: int, scale: float, amplitude: float) -> ArithmeticError:
+def _unresolved(
+    block: Oscillator, waveform: Waveform, scale: float, amplitude: float
+) -> ArithmeticError:
     forcing = f"{amplitude:.6g} times the record with p Δt = {scale:.6g}"
-    if shape != RECORD:
-        name = next(name for name, number in SHAPES.items() if number == shape)
-        forcing = f"the {name} pulse of {amplitude:.6g} g with ω/p = {scale:.6g}"
+    if waveform.wave != RECORD:
+        wave, halves = list(WAVES)[waveform.wave], waveform.last_phase / math.pi
+        forcing = (
+            f"{halves:g} half periods of the {wave} wave of {amplitude:.6g} g, ω/p {scale:.6g}"
+        )
     equation = "linearised" if block.linearised else "exact"
     return ArithmeticError(
         f"{MAX_STEPS} steps and ten a sample do not reach the end of {forcing}: the block "

@@ -13,13 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from topheavy.bodies.free_rocking import ending
+from topheavy.ground.shapes import CONSTANT, RICKER_ANTISYMMETRIC, RICKER_SYMMETRIC
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
-    CONSTANT,
     NONE,
     RECORD,
-    RICKER_ANTISYMMETRIC,
-    RICKER_SYMMETRIC,
     Array,
     Forcing,
     ground,
@@ -159,8 +157,8 @@ def follow(w, method, block, forcing, ratios, course, samples, is_judged):
     peak, sample, counted, landed = abs(rotation), 0, 0, 0
     moves = rotation != 0.0 or velocity**2 > 0.0  # a speed without an energy is rest
     has_moved, is_low, is_forced, is_over = moves, rotation == 0.0, True, False
-    is_record = forcing.shape == RECORD
-    is_ricker = forcing.shape == RICKER_SYMMETRIC or forcing.shape == RICKER_ANTISYMMETRIC
+    is_record = forcing.wave == RECORD
+    is_ricker = forcing.wave == RICKER_SYMMETRIC or forcing.wave == RICKER_ANTISYMMETRIC
     state, zeros = _initial_state(block, forcing, course), 1 if rotation == 0.0 else 0
     piece, forcing_end, flight_start, landed_forced = 0, forcing.end, 0.0, 0
     landings_due, flights = 0, 0  # of free rocking: before it overturns; so far
@@ -309,6 +307,6 @@ def _at_rest(forcing):
 
 
 @compiled
-def is_straight(shape):
+def is_straight(wave):
     """Return whether a and G are straight lines over each step."""
-    return shape in (RECORD, CONSTANT, NONE)
+    return wave in (RECORD, CONSTANT, NONE)

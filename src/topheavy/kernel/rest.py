@@ -69,7 +69,7 @@ def comes_to_rest(block, forcing, state, peak):
     allowed = 4 * velocity / (weakest * cosine * (1 - restitution))
     max_near, max_far, heaviest = near, far, weight
     if time + allowed > time:
-        if forcing.shape == RECORD:
+        if forcing.wave == RECORD:
             near, max_near, far, max_far, heaviest = _range_of_record(
                 forcing, time, time + allowed, state.side, level
             )

@@ -11,7 +11,7 @@ from topheavy import checks
 from topheavy.bodies.structures import Column, Structure, as_block, solitary_size
 from topheavy.ground.pulses import checked_shape
 from topheavy.ground.records import Record
-from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES
+from topheavy.kernel.forcing import pulse_waveform
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
 from topheavy.outcomes.simulate import as_shaking
@@ -76,7 +76,7 @@ def overturning_map(
         column = structure if isinstance(structure, Column) else getattr(structure, "column", None)
         size = column.size if isinstance(column, Column) else solitary_size(p)
         frequencies = p * np.sqrt(size / axis)
-        shape, record, factors = RECORD, as_shaking(motion).record, accelerations / peak
+        waveform, factors = as_shaking(motion).waveform, accelerations / peak
         rows = frequencies * motion.time_step
         dims = "size", "peak_acceleration"
         axes = {
@@ -94,7 +94,7 @@ def overturning_map(
             raise ValueError(
                 "motion is 'harmonic', which goes on forever; expected a pulse that ends"
             )
-        shape, record, factors, rows = SHAPES[motion], NO_RECORD, accelerations, axis / p
+        waveform, factors, rows = pulse_waveform(motion), accelerations, axis / p
         dims = "angular_frequency", "amplitude"
         axes = {
             "angular_frequency": ("angular_frequency", axis, {"units": "rad/s"}),
@@ -105,7 +105,7 @@ def overturning_map(
     which = np.zeros(cells[0].size, np.int64)
     peak_rotation, overturned, impacts = (
         values.reshape(rows.size, factors.size)
-        for values in outcomes_of([oscillator(block)], shape, which, *cells, record)
+        for values in outcomes_of([oscillator(block)], waveform, which, *cells)
     )
     return xarray.Dataset(
         {

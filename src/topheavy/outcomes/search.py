@@ -360,8 +360,9 @@ def outcomes_by(
     """
     peak = np.empty(which.size)
     overturned, impacts = np.empty(which.size, bool), np.empty(which.size, np.int64)
-    motions = [(subject.motion.shape, id(subject.motion.record)) for subject in subjects]
-    # The first subject under the same record, or under pulses of the same shape.
+    waveforms = [subject.motion.waveform for subject in subjects]
+    motions = [(each.wave, each.last_phase, id(each.record)) for each in waveforms]
+    # The first subject under the same record, or under pulses of the same shape and cycles.
     group = np.array([motions.index(motion) for motion in motions])
     scale = np.array([subject.scale for subject in subjects])
     amplitude = np.array([subject.motion.amplitude for subject in subjects])
@@ -369,15 +370,14 @@ def outcomes_by(
     blocks = [subject.block for subject in subjects]
     for member in np.unique(group):
         (at,) = np.nonzero(group[which] == member)
-        subject, motion = which[at], subjects[member].motion
+        subject = which[at]
         peak[at], overturned[at], impacts[at] = outcomes_of(
             blocks,
-            motion.shape,
+            waveforms[member],
             subject,
             scale[subject],
             amplitude[subject] * factors[at],
-            motion.record,
-            lifts=np.where(scales_vertical[subject], factors[at], 1.0),
+            verticals=np.where(scales_vertical[subject], factors[at], 1.0),
             tolerance=tolerance,
         )
     return peak, overturned, impacts

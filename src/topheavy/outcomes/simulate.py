@@ -18,7 +18,14 @@ from topheavy.ground.excitation import Excitation, checked_excitation, no_excita
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.vertical import both_records, refuse_fall, without_rest
-from topheavy.kernel.forcing import NO_RECORD, NONE, RECORD, SHAPES, forcing_of, prepare_record
+from topheavy.kernel.forcing import (
+    NO_MOTION,
+    RECORD,
+    Waveform,
+    forcing_of,
+    pulse_waveform,
+    record_waveform,
+)
 from topheavy.kernel.grid import followed, outcome_of
 from topheavy.kernel.history import (
     MAX_STEPS_WITH_SAMPLES,
@@ -113,10 +120,10 @@ def simulate(
     theta, theta_rate = initial_motion(block, rotation, velocity)
     if vertical is not None:
         refuse_fall(both_records(excitation, vertical)[1])
-    shape, _, amplitude, record = shaking = as_shaking(excitation, vertical)
+    shaking = as_shaking(excitation, vertical)
     p, scale = block.frequency_parameter, shaking.scale(block)
     until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
-    forcing = forcing_of(shape, record, scale, amplitude, 1.0)
+    forcing = forcing_of(shaking.waveform, scale, shaking.amplitude, 1.0)
     forcing = forcing._replace(end=min(forcing.end, until))
     if forcing.end == math.inf:
         raise ValueError("duration is None; expected one, as this excitation goes on forever")
@@ -202,28 +209,26 @@ def judge(
     block, shaking = as_block(structure), as_shaking(excitation, vertical)
     return outcome_of(
         oscillator(block),
-        shaking.shape,
+        shaking.waveform,
         shaking.scale(block),
         shaking.amplitude,
-        shaking.record,
-        lift=1.0,
+        vertical=1.0,
         ratios=np.array([checks.fraction("restitutions", value) for value in restitutions]),
         tolerance=checked_tolerance(tolerance),
     )
 
 
 class Shaking(NamedTuple):
-    """A ground motion as the kernel reads it: number of the shape, ω or Δt, amplitude, record."""
+    """A ground motion as the kernel reads it: its waveform, ω or Δt, and amplitude."""
 
-    shape: int
+    waveform: Waveform
     rate: float
     amplitude: float
-    record: NDArray[np.float64]
 
     def scale(self, block: RockingBlock) -> float:
         """Return ω/p of a pulse, p Δt of a record."""
         p = block.frequency_parameter
-        return p * self.rate if self.shape == RECORD else self.rate / p
+        return p * self.rate if self.waveform.wave == RECORD else self.rate / p
 
 
 def as_shaking(excitation: Excitation | None, vertical: Record | None = None) -> Shaking:
@@ -231,23 +236,23 @@ def as_shaking(excitation: Excitation | None, vertical: Record | None = None) ->
     if vertical is not None:
         across, up = map(without_rest, both_records(excitation, vertical))
         ratio = up.time_step / across.time_step
-        record = prepare_record(across.acceleration, up.acceleration, ratio)
-        return Shaking(RECORD, across.time_step, 1.0, record)
+        waveform = record_waveform(across.acceleration, up.acceleration, ratio)
+        return Shaking(waveform, across.time_step, 1.0)
     match excitation:
         case None:
-            return Shaking(NONE, 1.0, 0.0, NO_RECORD)
+            return Shaking(NO_MOTION, 1.0, 0.0)
         case Pulse():
-            number, omega = SHAPES[excitation.shape], excitation.angular_frequency
-            return Shaking(number, omega, float(excitation.amplitude), NO_RECORD)
+            waveform = pulse_waveform(excitation.shape, excitation.cycles)
+            return Shaking(waveform, excitation.angular_frequency, float(excitation.amplitude))
         case Record():
-            return Shaking(RECORD, excitation.time_step, 1.0, _prepared(excitation))
+            return Shaking(_waveform(excitation), excitation.time_step, 1.0)
     raise no_excitation(excitation)
 
 
 @lru_cache(maxsize=2)
-def _prepared(record: Record) -> NDArray[np.float64]:
+def _waveform(record: Record) -> Waveform:
     """Return a record as the kernel reads it, prepared once for several calls."""
-    return prepare_record(without_rest(record).acceleration)
+    return record_waveform(without_rest(record).acceleration)
 
 
 def checked_tolerance(value: float) -> float:

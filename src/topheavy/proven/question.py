@@ -11,6 +11,7 @@ from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.bodies.structures import STANDARD_GRAVITY, Column, RockingFrame, Structure
 from topheavy.ground.excitation import checked_excitation
 from topheavy.ground.pulses import Pulse
+from topheavy.ground.shapes import SHAPES
 
 
 def question(
@@ -34,7 +35,11 @@ def question(
     return {
         "structure": _dimensions(structure),
         "linearised": structure.block().linearised,
-        "pulse": {"shape": pulse.shape, **_decimals(pulse, "amplitude", "angular_frequency")},
+        "pulse": {
+            "wave": SHAPES[pulse.shape].wave,
+            "half_periods": int(pulse.half_periods),
+            **_decimals(pulse, "amplitude", "angular_frequency"),
+        },
         "factor": [_decimal(low), _decimal(high)],
     }
 

@@ -37,8 +37,8 @@ MIN_STEP = 1e-18
 MAX_IMPACT_SPREAD = 0.12
 """Phase over which the impacts of a box may spread; a wider box is bounded from before them."""
 
-N_GRID = 64
-"""Parts of a pulse, at whose ends the search compares |a| with the uplift acceleration."""
+N_GRID = 32
+"""Parts of half a period, at whose ends the search compares |a| with the uplift acceleration."""
 
 FIRST_WALL_STEP, WALL_STEP_GROWTH, MAX_WALL_STEP = 2.0**-6, 1.3, math.pi / 48.0
 """Steps of a bound, in the phase of the pulse."""
@@ -142,7 +142,8 @@ class Search:
             return abs(self.floats.wave(sigma, 1)[0]) > self.floats.level
 
         stop = ends(self.check.ground.stop)[0]
-        grid = [stop * k / N_GRID for k in range(N_GRID + 1)]
+        parts = N_GRID * self.certificate["pulse"]["half_periods"]
+        grid = [stop * k / parts for k in range(parts + 1)]
         for k, sigma in enumerate(grid):
             if is_beyond(sigma):
                 place = crossing(grid[k - 1], sigma, is_beyond) if k else 0.0

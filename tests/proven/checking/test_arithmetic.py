@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from topheavy import Pulse
-from topheavy.ground.shapes import FINITE_SHAPES
+from topheavy.ground.shapes import FINITE_SHAPES, SHAPES
 from topheavy.proven.checking import Check, Refused, intervals
 from topheavy.proven.checking.bounds import SIDES, Bound
 from topheavy.proven.checking.course import Course
@@ -74,7 +74,8 @@ def test_sum_of_products_has_the_ends_of_its_corners_whatever_their_signs():
 
 
 def ground(shape, amplitude="0.7", factor=("1", "1")):
-    pulse = {"shape": shape, "amplitude": amplitude, "angular_frequency": "3"}
+    wave, halves = SHAPES[shape].wave, int(SHAPES[shape].half_periods)
+    pulse = {"wave": wave, "half_periods": halves, "amplitude": amplitude, "angular_frequency": "3"}
     return Ground(pulse, factor, enclose(4))
 
 
@@ -113,7 +114,8 @@ NUMBERS = {"kind": "block", "slenderness": "0.3", "frequency_parameter": "1", "r
 def course(phi, rate, order, *, linearised=True, h=Fraction(1, 2), side=1):
     """A step under a constant push, of a block with α = 0.3 and κ = 1.1."""
     block = Block(NUMBERS, linearised)
-    pulse = {"shape": "constant", "amplitude": str(side * PUSH), "angular_frequency": "1"}
+    pulse = {"wave": "constant", "half_periods": 1, "angular_frequency": "1"}
+    pulse |= {"amplitude": str(side * PUSH)}
     state = SimpleNamespace(block=block, order=order, side=side, sigma=enclose(0), zeros=0)
     state.phi, state.rate = enclose(Fraction(phi)), enclose(Fraction(rate))
     state.ground = Ground(pulse, ("1", "1"), enclose(KAPPA * KAPPA))

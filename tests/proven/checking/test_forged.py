@@ -242,7 +242,7 @@ def test_anyone_can_check_a_file_of_certificates(tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
     about, first, second, third, count = done.stdout.splitlines()
     assert about.startswith("frame: half_width 0.5, half_height 3.0, mass_ratio 0.0, gravity 9.81;")
-    assert "shape one-cosine, angular_frequency 4.188790204786" in about
+    assert "wave cosine, half_periods 2, angular_frequency 4.188790204786" in about
     assert first.strip() == "survives at each amplitude from 0 to 0.15 g"
     assert second.strip() == "survives at 0.1616 g"
     assert third.strip() == "overturns at 0.3 g"

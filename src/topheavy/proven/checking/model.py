@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 from . import intervals
 from .intervals import Interval, Refused, arctangent, cosine, dot, enclose, exponential, sine
-from .schema import HALF_TURNS
 
 MAX_WAVE = Fraction(10001, 10000)  # of |f|: the antisymmetric Ricker pulse peaks at 1.00002
 
@@ -73,30 +73,30 @@ def _rigid(
 class Ground:
     """The acceleration a(σ) of a pulse, in g, for all factors on it; σ = ωt is its phase."""
 
-    def __init__(self, pulse: dict[str, str], factor: Sequence[str], square: Interval) -> None:
+    def __init__(self, pulse: dict[str, Any], factor: Sequence[str], square: Interval) -> None:
         low, high = (Fraction(pulse["amplitude"]) * Fraction(end) for end in factor)
-        self.shape, self.amplitude = pulse["shape"], enclose(low).hull(enclose(high))
+        self.wave, self.amplitude = pulse["wave"], enclose(low).hull(enclose(high))
         self.clock = square / enclose(Fraction(pulse["angular_frequency"]) ** 2)  # κ² = (p/ω)²
         first, second = (arctangent(enclose(Fraction(1, n))) for n in (5, 239))
         self.pi = 16 * first - 4 * second
-        self.stop = self.pi * HALF_TURNS[self.shape]
+        self.stop = self.pi * pulse["half_periods"]
         self.largest = enclose(MAX_WAVE) * self.amplitude.size()
 
     def series(self, sigma: Interval, h: Interval, terms: int) -> list[Interval]:
         """Return the coefficients of a(σ + hτ) by powers of τ."""
-        if self.shape == "constant":
+        if self.wave == "constant":
             return [self.amplitude, *[enclose(0)] * (terms - 1)]
-        if self.shape.startswith("ricker"):
+        if self.wave.startswith("ricker"):
             return [self.amplitude * x for x in self._ricker(sigma, h, terms)]
         pair = [(sine(sigma), cosine(sigma))]
-        if self.shape == "one-cosine":
+        if self.wave == "cosine":
             pair = [(cosine(sigma), -sine(sigma))]
         for k in range(terms - 1):
             pair.append((h * pair[k][1] / (k + 1), -h * pair[k][0] / (k + 1)))
         return [self.amplitude * x for x, _ in pair]
 
     def _ricker(self, sigma: Interval, h: Interval, terms: int) -> list[Interval]:
-        is_even = self.shape == "ricker-symmetric"
+        is_even = self.wave == "ricker-symmetric"
         # (1 − 2y²) e^(−y²), or (y² − 3) y e^(−y²/2) over its peak, with y + step τ for y
         width = enclose(2) if is_even else enclose(3).root()
         y, step = (sigma - self.pi * 9 / 2) / width, h / width

@@ -14,8 +14,8 @@ Test = Callable[[str, Any], None]
 
 DECIMAL = r"(?a)-?\d{1,400}(\.\d{1,400})?([eE][+-]?\d{1,3})?"
 NUMBER = DECIMAL + r"|-?\d{1,400}/[1-9]\d{0,400}"
-HALF_TURNS = {"half-sine": 1, "constant": 1, "one-sine": 2, "one-cosine": 2}
-HALF_TURNS |= {"ricker-symmetric": 9, "ricker-antisymmetric": 9}
+WAVES = ("sine", "cosine", "constant", "ricker-symmetric", "ricker-antisymmetric")
+MAX_HALF_PERIODS = 200
 MIN_SIZE, MAX_NUMBER = Fraction(1, 10**9), 10**9
 MAX_EVENTS = 20_000
 
@@ -129,7 +129,12 @@ EVENT = one_form(
 CERTIFICATE = {
     "structure": one_form("kind", STRUCTURES),
     "linearised": truth,
-    "pulse": {"shape": one_of(*HALF_TURNS), "amplitude": AMPLITUDE, "angular_frequency": SIZE},
+    "pulse": {
+        "wave": one_of(*WAVES),
+        "half_periods": whole(1, MAX_HALF_PERIODS),
+        "amplitude": AMPLITUDE,
+        "angular_frequency": SIZE,
+    },
     "factor": (AMPLITUDE, AMPLITUDE),
     "outcome": one_of("survives", "overturns"),
     "impacts": either(None, whole(0, MAX_EVENTS)),
