@@ -13,12 +13,28 @@ from html.parser import HTMLParser
 from operator import getitem
 from typing import Any
 
+WORDS = [
+    "no",
+    "one",
+    "two",
+    "three",
+    "four",
+    "five",
+    "six",
+    "seven",
+    "eight",
+    "nine",
+    "ten",
+    "eleven",
+    "twelve",
+]
+
 
 class Input:
     """A part of a config that a text names as {vase[period]:g}; in the text, it has a mark.
 
-    A factor may stand before the format, {trilith[table_amplitude]:1000*g}. A list is read out, and
-    has a `last`.
+    A factor may stand before the format, {trilith[table_amplitude]:1000*g}. A list is read out, or
+    counted, {spectra[shapes]:count}, and has a `last`.
     """
 
     def __init__(self, content: Any, path: str) -> None:
@@ -27,11 +43,18 @@ class Input:
     def __getitem__(self, key: str | int) -> "Input":
         if key == "last" and isinstance(self.content, list):
             key = len(self.content) - 1
-        return Input(self.content[key], f"{self.path}{key}.")
+        try:
+            return Input(self.content[key], f"{self.path}{key}.")
+        except (LookupError, TypeError):
+            raise KeyError(f"{self.path}{key}") from None
 
     def __format__(self, how: str) -> str:
-        if isinstance(self.content, list):
-            return and_list(format(self[index], how) for index in range(len(self.content)))
+        if how == "count":
+            count = len(self.content)
+            return f"⟨{self.path.rstrip('.')}|{WORDS[count] if count < len(WORDS) else count}⟩"
+        if isinstance(self.content, list | dict):
+            keys = self.content if isinstance(self.content, dict) else range(len(self.content))
+            return and_list(format(self[key], how) for key in keys)
         factor, _, form = how.rpartition("*")
         number = self.content * float(factor) if factor else self.content
         return f"⟨{self.path.rstrip('.')}|{'∞' if number == math.inf else format(number, form)}⟩"

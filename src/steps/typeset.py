@@ -1,6 +1,7 @@
 """Compile a document, which reads results/ itself: the same bytes each time."""
 
 import json
+import re
 from typing import Any
 
 import typst
@@ -13,17 +14,16 @@ from replication.step import log_to, publish, stop
 
 def captions(path: str, config: dict) -> dict[str, dict]:
     """Return title, alternative text and text of each figure; {keys} are those of the config."""
-    try:
-        return {
-            name: {
-                "title": about["title"],
-                "alt": about["alt"],
-                "text": about["text"].format(**inputs(config)),
-            }
-            for name, about in read_yaml(path).items()
-        }
-    except (KeyError, IndexError) as key:
-        stop(f"{path}: a text has {{{key.args[0]}}}, which is no key of config/config.yaml")
+    texts = {}
+    for name, about in read_yaml(path).items():
+        try:
+            text = about["text"].format(**inputs(config))
+        except KeyError as key:
+            stop(
+                f"{path}: the caption of {name} names {key.args[0]}, which is no key of the config"
+            )
+        texts[name] = {"title": about["title"], "alt": about["alt"], "text": text}
+    return texts
 
 
 def compiled(source: str, inputs: dict[str, str], **how: Any) -> bytes:
@@ -31,6 +31,11 @@ def compiled(source: str, inputs: dict[str, str], **how: Any) -> bytes:
     try:
         return typst.compile(source, root=".", ignore_system_fonts=True, sys_inputs=inputs, **how)
     except typst.TypstError as fault:  # its text has no place; the diagnostic has
+        if hit := re.search(r"no meaning: (\S+): (.*)", fault.diagnostic):
+            stop(
+                f"{source} is not made: with {hit[1]} of config/config.yaml as it is, there is no "
+                f"meaning in: {hit[2]}"
+            )
         stop(f"{source} cannot be compiled\n{fault.diagnostic}")
 
 

@@ -269,6 +269,7 @@ def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> 
     } | {
         name: value(*quoted.loc[one, ["minimum_overturning", "error"]], "g")
         for name, one in at.items()
+        if one in quoted.index
     }
 
 
