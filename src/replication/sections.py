@@ -152,6 +152,14 @@ class Sample(Section):
     seed: Count
 
 
+class Cycles(Section):
+    numbers: list[Count]
+    frequency_ratios: Grid  # ω/p
+    highest: Positive  # g tan α
+    resolution: Positive
+    wide: Positive
+
+
 class Spectra(Section):
     shards: Count
     slendernesses: list[Degrees]
@@ -160,6 +168,8 @@ class Spectra(Section):
     frequency_ratios: Grid  # ω/p
     amplitudes: Resolved
     finer: Finer
+    slow: Positive  # ω/p̂
+    cycles: Cycles
     sample: Sample
 
 
@@ -347,6 +357,7 @@ class EngineAcross(Section):
     shape: Shape
     frequency_ratios: list[Positive]
     depths: list[Positive]
+    oblique: list[Degrees]
     step: Positive
     time_step: Positive  # 1/p
     friction: Positive

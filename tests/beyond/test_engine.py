@@ -126,6 +126,8 @@ ACROSS = pd.DataFrame(
         ("two in line", 0.0, 1.1),
         ("two in line", 90.0, 0.7),
         ("2 × 2", 0.0, 1.1),
+        ("column", 45.0, 1.2),
+        ("2 × 2", 45.0, 1.3),
     ],
     columns=["structure", "direction", "engine"],
 ).assign(section="square", mass_ratio=1.0, frequency_ratio=3.0, depth_over_width=1.0, theory=1.0)
@@ -153,7 +155,8 @@ def test_one_other_outcome_breaks_the_same_outcomes(row, holds, holds_when):
 
 
 @pytest.mark.parametrize(
-    ("row", "changed", "holds"), [(2, 1.0, False), (3, 1.0, False), (4, 0.9, False), (1, 1.2, True)]
+    ("row", "changed", "holds"),
+    [(2, 1.0, False), (3, 1.0, False), (4, 0.9, False), (6, 1.15, False), (1, 1.2, True)],
 )
 def test_a_frame_as_strong_across_as_its_column_breaks_the_plane(row, changed, holds):
     table = ACROSS.assign(engine=ACROSS.engine.where(ACROSS.index != row, changed))

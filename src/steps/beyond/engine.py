@@ -141,7 +141,7 @@ def across(settings, structures):
     """Return the first amplitudes that overturn in the plane and across it.
 
     They are over the minimum of the square column in theory, as are the uplift acceleration by hand
-    and the minimum in theory, which is not known for round columns.
+    and the minimum in theory, which is not known for round columns and oblique directions.
     """
     spec, free = settings["across"], [(IN_LINE, IN_PLANE), (IN_LINE, ACROSS), (SLAB, IN_PLANE)]
     frequency, (light, *_, heavy) = spec["frequency_ratios"][0], spec["mass_ratios"]
@@ -155,7 +155,12 @@ def across(settings, structures):
         (IN_LINE, ACROSS, "square", depth, gamma, frequency)
         for gamma, depth in product(spec["mass_ratios"], spec["depths"])
     ]
-    cases = [(row, {}) for row in square + deep]
+    oblique = [
+        (name, direction, "square", 1.0, gamma, frequency)
+        for direction in spec["oblique"]
+        for name, gamma in ((COLUMN, 0.0), *((SLAB, gamma) for gamma in spec["mass_ratios"]))
+    ]
+    cases = [(row, {}) for row in square + deep + oblique]
     cases += [((*one, "round", 1.0, light, frequency), {}) for one in free]
     again = [row for row in square if row[4:] == (heavy, frequency)]
     cases += product(again, spec["checks"])
@@ -185,7 +190,7 @@ def first(row, changed, settings, structures):
     )
     uplift, step = theory.uplift_acceleration / alone.amplitude, spec["step"]
     expected, begin = math.nan, uplift
-    if section == "square":
+    if section == "square" and direction in (IN_PLANE, ACROSS):
         expected = minimum(theory, kind, column).amplitude / alone.amplitude
         begin = max(uplift, expected - BELOW * step)
     factors = step * np.arange(math.floor(begin / step), math.ceil(HIGHEST / step))
@@ -204,7 +209,11 @@ def findings(engine_restitution, engine_outcomes, engine_across):
     agrees = engine_outcomes.engine == engine_outcomes.theory
     refitted = engine_outcomes.engine == engine_outcomes.theory_with_rebound
     plain = engine_outcomes.contact == "no rebound"
-    table = engine_across[engine_across.depth_over_width == 1.0]
+    square = engine_across[engine_across.depth_over_width == 1.0]
+    is_oblique = ~square.direction.isin([IN_PLANE, ACROSS])
+    table, slab = square[~is_oblique], square[is_oblique & (square.structure == SLAB)]
+    oblique = square[is_oblique & (square.structure == COLUMN)].set_index("direction").engine
+    margin = slab.engine / slab.direction.map(oblique)
     alone = table[table.structure == COLUMN].set_index("frequency_ratio").engine
     gain = table.engine - table.frequency_ratio.map(alone)
     deep = engine_across[(engine_across.section == "square") & (engine_across.direction == ACROSS)]
@@ -231,11 +240,18 @@ def findings(engine_restitution, engine_outcomes, engine_across):
             apart_that_survive=(~engine_outcomes.engine[~agrees]).sum(),
         ),
         "across_the_plane": truth(
-            gain[weaker].max() < 0.0 < gain[stronger].min(),
+            gain[weaker].max() < 0.0 < min(gain[stronger].min(), margin.min() - 1.0),
             lowest=table.engine[weaker].min(),
             highest=table.engine[weaker].max(),
             lowest_of_slab=table.engine[table.structure == SLAB].min(),
             highest_of_slab=table.engine[table.structure == SLAB].max(),
+            lowest_of_column=alone.min(),
+            highest_of_column=alone.max(),
+            least_gain_of_slab=gain[table.structure == SLAB].min(),
+            lowest_of_slab_in_theory=table.theory[table.structure == SLAB].min(),
+            highest_of_slab_in_theory=table.theory[table.structure == SLAB].max(),
+            least_oblique=margin.min(),
+            most_oblique=margin.max(),
             enough_depths=enough.depth_over_width.min().to_list(),
             apart_from_theory=(engine_across.engine - engine_across.theory).abs().max(),
         ),

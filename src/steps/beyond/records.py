@@ -11,7 +11,7 @@ import numpy as np
 
 from replication.step import check, geometric, run, truth
 from steps.shared.second import NUDGE, check_by_scipy
-from topheavy import Column, RockingFrame, capacity, overturned_by, read_record
+from topheavy import Capacity, Column, RockingFrame, overturned_by, read_record
 
 
 def compute(settings, solver, structures, components):
@@ -38,24 +38,37 @@ def compute(settings, solver, structures, components):
     at = np.linspace(0, len(edges) - 1, settings["checked"]).astype(int)
     check_by_scipy(edges[place] for place in at)
     spec, column = settings["capacity"], Column(**structures[settings["capacity"]["structure"]])
-    return {"table": rows, "capacity": [*capacities(spec, column, map(read_record, components))]}
+    records = map(read_record, components)
+    return {"table": rows, "capacity": [*capacities(spec, column, records, solver["tightened"])]}
 
 
-def capacities(spec, column, records):
-    """Yield the capacities of the column (γ = 0) and its frames under each record, in g.
+def capacities(spec, column, records, tightened):
+    """Yield the capacities of the column (γ = 0) and its frames under each record, in g, by window.
 
-    It is stated for the first window, with the range over all.
+    A capacity is a threshold on a count of outcomes, which one outcome can move far. It is computed
+    at the tightened tolerance, again at a tenth of it, and under the record times 1 + NUDGE; it is
+    decided if these are the same, and `least` and `most` are the ends of these.
     """
     ratios = (1.0 + spec["step"]) ** np.arange(math.log(spec["highest"]) / math.log1p(spec["step"]))
     for record, gamma in product(records, spec["mass_ratios"]):
-        factors = ratios * column.uplift_acceleration / record.peak_acceleration
-        one = capacity(RockingFrame(column, gamma), record, factors, share=spec["share"])
-        peaks = [record.peak_acceleration * one.over(window) for window in spec["windows"]]
-        check(np.isfinite(peaks).all(), f"{record.name}: no capacity: raise capacity.highest")
-        yield (
-            {"record": record.name, "mass_ratio": gamma, "capacity": peaks[0]}
-            | {"least": min(peaks), "most": max(peaks)}
-        )
+        frame, peak = RockingFrame(column, gamma), record.peak_acceleration
+        factors = ratios * column.uplift_acceleration / peak
+        repeats = [
+            Capacity(factors, outcomes, share=spec["share"])
+            for outcomes in (
+                overturned_by(frame, record, factors, tolerance=tightened),
+                overturned_by(frame, record, factors, tolerance=0.1 * tightened),
+                overturned_by(frame, record, factors * (1.0 + NUDGE), tolerance=tightened),
+            )
+        ]
+        for window in spec["windows"]:
+            peaks = [peak * one.over(window) for one in repeats]
+            check(np.isfinite(peaks).all(), f"{record.name}: no capacity: raise capacity.highest")
+            yield (
+                {"record": record.name, "mass_ratio": gamma, "window": window}
+                | {"capacity": peaks[0], "least": min(peaks), "most": max(peaks)}
+                | {"decided": len({*peaks}) == 1}
+            )
 
 
 def overturned(frame, record, factors, tightened):
@@ -69,23 +82,46 @@ def overturned(frame, record, factors, tightened):
     return np.where(np.all(found == others, axis=0), np.where(found, 1, -1), 0)
 
 
-def findings(records, records_capacity):
-    by_mass = records_capacity.pivot(index="record", columns="mass_ratio", values="capacity")
+def findings(records, records_capacity, settings):
+    at = ["window", "record"]
+    by_mass = records_capacity.pivot(index=at, columns="mass_ratio", values="capacity")
     gains = by_mass.div(by_mass[0.0], axis=0) - 1.0
-    return {
-        "heavier_is_safer": truth(
-            not records.only_heavier.any(),
-            only_lighter=records.only_lighter.sum(),
-            only_heavier=records.only_heavier.sum(),
-            records=records.record.nunique(),
-        ),
-        "fewer_reversals": truth((records.only_heavier < records.only_lighter).all()),
-    } | {
-        f"gain_{gamma:g}": truth(
-            (gains[gamma] > 0.0).all(), least=gains[gamma].min(), most=gains[gamma].max()
-        )
-        for gamma in gains.columns[1:]
-    }
+    middles, stated = gains.groupby("window").median(), settings["capacity"]["windows"][0]
+    counts = records.groupby(["lighter", "heavier"])[["only_lighter", "only_heavier"]].sum()
+    return (
+        {
+            "heavier_is_safer": truth(
+                not records.only_heavier.any(),
+                only_lighter=records.only_lighter.sum(),
+                only_heavier=records.only_heavier.sum(),
+                records=records.record.nunique(),
+            ),
+            "fewer_reversals": truth((records.only_heavier < records.only_lighter).all()),
+            "capacities_are_decided": truth(
+                records_capacity.decided.all(),
+                rows=len(records_capacity),
+                undecided=(~records_capacity.decided).sum(),
+                undecided_at_the_stated_window=(
+                    ~records_capacity.decided[records_capacity.window == stated]
+                ).sum(),
+            ),
+        }
+        | {
+            f"pair_{light:g}_{heavy:g}": truth(row.only_heavier < row.only_lighter, **row)
+            for (light, heavy), row in counts.iterrows()
+        }
+        | {
+            f"gain_{gamma:g}": truth(
+                (gains[gamma] > 0.0).all(),
+                median=middles[gamma][stated],
+                lowest_median=middles[gamma].min(),
+                highest_median=middles[gamma].max(),
+                least=gains[gamma].min(),
+                most=gains[gamma].max(),
+            )
+            for gamma in gains.columns[1:]
+        }
+    )
 
 
 if __name__ == "__main__":
