@@ -1,6 +1,8 @@
 """Verdicts, the digits of numbers, claims, and what is said of a mistake in a step or config."""
 
 import math
+from functools import reduce
+from operator import getitem
 from types import SimpleNamespace
 
 import pandas as pd
@@ -9,9 +11,23 @@ from pydantic import ValidationError
 
 from replication import step
 from replication.claims import Claim, judged, read_claims, unexpected
-from replication.config import Grid, MassRatio, Positive, Section, Shape, read_config, read_yaml
+from replication.config import (
+    Degrees,
+    Grid,
+    Items,
+    MassRatio,
+    Positive,
+    Range,
+    Section,
+    Shape,
+    StructureName,
+    read_config,
+    read_yaml,
+)
+from replication.sections import Paper
 from replication.step import truth, value
 from replication.verdicts import decimals, tolerance_fault, verdict_on
+from tests.cases import ROOT
 
 STATEMENT = {"id": "s", "where": "p. 1", "statement": "It is so.", "expected": "confirmed"}
 NUMBER = STATEMENT | {"id": "n", "printed": 0.275, "tolerance": 0.0005}
@@ -129,6 +145,12 @@ def test_false_claim_is_named_with_its_file(tmp_path):
     )
 
 
+def test_brace_that_names_nothing_is_text(tmp_path):
+    text = GOOD.replace("{scale} times", "in {a, {0.5} and {scale.real}")
+    (claim,) = read_claims(ledger(tmp_path, text), {"scale": 1.3})
+    assert claim.statement == "It survives in {a, {0.5} and {scale.real}."
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
@@ -138,6 +160,17 @@ def test_false_claim_is_named_with_its_file(tmp_path):
         ("confirmed", "proven", "claim stands: expected is 'proven'; expected one of confirmed"),
         ("  finding: good\n", "", "claim stands: a claim names a rule and a finding, unless"),
         ("- id", OTHER + "- id", "claim stands: the id is there twice"),
+        (
+            "confirmed",
+            "confirmed\n  tolerance: -1.0",
+            "'tolerance': Input should be greater than 0",
+        ),
+        ("confirmed", "confirmed\n  tolerance: 1.0", "printed is None; expected a number, since"),
+        ("confirmed", "confirmed\n  printed: .nan", "Input should be a finite number"),
+        ("confirmed", "confirmed\n  part: ours", "'part': Extra inputs are not permitted"),
+        ("{scale}", "{scale:zz}", "claim stands: Unknown format code 'z'"),
+        (GOOD, "text", "claims.yaml has 'text'; expected a list of claims"),
+        (GOOD, "- text", "claim number 1 of bridge: "),
     ],
 )
 def test_mistake_in_a_claim_is_named(tmp_path, old, new, message):
@@ -202,19 +235,23 @@ def test_mistake_in_a_step_is_named_in_its_log(tmp_path, compute, findings, mess
 
 class Inner(Section):
     shape: Shape
-    ratios: list[MassRatio]
+    ratios: Items[MassRatio]
+    ends: Range[Degrees]
+    structure: StructureName
 
 
 class Inputs(Section):
+    structures: dict[str, float]
     scale: Positive
     grid: Grid
     inner: Inner
 
 
 CONFIG = """\
+structures: {temple: 1.0}
 scale: 1.3
-grid: {lowest: 0.0, highest: 2.0, points: 3}
-inner: {shape: one-sine, ratios: [0.0, .inf]}
+grid: {lowest: 0.5, highest: 2.0, points: 3}
+inner: {shape: one-sine, ratios: [0.0, .inf], ends: [3.0, 30.0], structure: temple}
 """
 
 
@@ -240,9 +277,13 @@ def test_config_with_its_keys_is_read(tmp_path):
         ("1.3", "-1.3", "scale is -1.3; input should be greater than 0"),
         ("points: 3", "points: -3", "grid.points is -3; input should be greater than or equal"),
         ("highest: 2.0", "highest: 0.0", "grid.highest is 0.0; input should be greater than 0"),
-        ("lowest: 0.0", "lowest: 3.0", "expected more than lowest, 3"),
-        ("one-sine", "one-sin", "inner.shape is 'one-sin'; string should match pattern"),
-        ("scale: 1.3", "scale: 1.3\nscale: 1.4", "config.yaml:2: the key 'scale' is there twice"),
+        ("lowest: 0.5", "lowest: 3.0", "expected more than lowest, 3"),
+        ("one-sine", "one-sin", "inner.shape is 'one-sin'; input should be 'one-sine', 'one-cos"),
+        ("[0.0, .inf]", "[]", "inner.ratios is []; list should have at least 1 item"),
+        ("[3.0, 30.0]", "[30.0, 3.0]", "inner.ends is [30.0, 3.0]; expected numbers that rise"),
+        ("3.0,", "0.05,", "inner.ends.0 is 0.05; input should be greater than or equal to 1"),
+        ("structure: temple", "structure: tmeple", "inner.structure is 'tmeple'; expected a name"),
+        ("scale: 1.3", "scale: 1.3\nscale: 1.4", "config.yaml:3: the key 'scale' is there twice"),
         ("scale: 1.3", "scale:\t1.3:", "config.yaml: "),
     ],
 )
@@ -254,6 +295,28 @@ def test_mistake_in_a_config_is_told_with_file_key_value_and_expectation(
     with pytest.raises(SystemExit) as error:
         read_config(str(path), Inputs)
     assert str(error.value).startswith(str(tmp_path))
+    assert message in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("path", "content", "message"),
+    [
+        (
+            "engine.restitution.frames",
+            {"tall": [1.0]},
+            "engine.caps: expected bridge, tall, temple",
+        ),
+        ("motions.fewer", 501, "motions.fewer: expected at most 500"),
+        ("break_even.velocities", [0.8], "break_even.velocities: expected 0.6 among them"),
+        ("spectra.finer.resolution", 0.5, "spectra.finer.resolution: expected less than that of"),
+    ],
+)
+def test_sections_that_contradict_each_other_are_refused(path, content, message):
+    config = read_yaml(ROOT / "config" / "config.yaml")
+    *keys, last = path.split(".")
+    reduce(getitem, keys, config)[last] = content
+    with pytest.raises(SystemExit) as error:
+        read_config("config.yaml", Paper, config)
     assert message in str(error.value)
 
 

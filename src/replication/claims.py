@@ -1,37 +1,47 @@
 """Read claims, and judge each by its finding."""
 
 import json
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic import StrictInt, ValidationError
 
-from replication.config import Section, read_yaml
+from replication.config import Number, Positive, Section, read_yaml
 from replication.numbers import inputs, without_marks
 
 TITLES = {"paper": "claims of the paper", "ours": "claims of our own"}
 
 
-class Claim(Section):
-    """A claim; the head of paper/claims.yaml explains its keys. `part`: paper, ours or a study.
+BRACES = re.compile(r"\{\w+(?:\[[\w.]+\])*(?::[^{}]*)?\}")
+"""A number of the config in a text; any other brace is text."""
 
-    `marked` has statement and remark with the marks of their numbers.
-    """
+
+class Entry(Section):
+    """A claim as in its file; the head of paper/claims.yaml explains the keys."""
 
     id: str
     where: str
     statement: str
-    marked: dict[str, str] | None = None
-    printed: float | int | str | None = None
+    printed: StrictInt | Number | str | None = None
     unit: str = ""
-    tolerance: float | None = None
+    tolerance: Positive | None = None
     rule: str = ""
     finding: str = ""
     expected: str
     differs: str = ""
     remark: str = ""
+
+
+class Claim(Entry):
+    """A claim of a list, `part`: paper, ours or a study.
+
+    `marked` has statement and remark with the marks of their numbers.
+    """
+
+    marked: dict[str, str] | None = None
     part: str = ""
     file: str = ""
 
@@ -55,21 +65,29 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
     known = inputs(settings, "config" if isinstance(content, dict) else study)
     claims: list[Claim] = []
     for part, rows in parts.items():
-        for row in rows or []:
+        if not isinstance(rows, list):
+            raise SystemExit(f"{path} has {rows!r:.40}; expected a list of claims")
+        for number, row in enumerate(rows, 1):
+            name = row.get("id") if isinstance(row, dict) else f"number {number} of {part}"
             try:
-                claim = Claim(**row, part=part, file=path)
+                claim = Claim(**Entry.model_validate(row).model_dump(), part=part, file=path)
                 claim.marked = {
-                    name: getattr(claim, name).format(**known) for name in ("statement", "remark")
+                    name: BRACES.sub(lambda key: key[0].format(**known), getattr(claim, name))
+                    for name in ("statement", "remark")
                 }
                 claim.statement, claim.remark = map(without_marks, claim.marked.values())
             except ValidationError as errors:
-                faults = "; ".join(f"'{e['loc'][-1]}': {e['msg']}" for e in errors.errors())
-                raise SystemExit(f"{path}: claim {row.get('id')}: {faults}") from None
-            except (KeyError, IndexError, AttributeError) as key:
+                faults = "; ".join(
+                    f"'{'.'.join(map(str, e['loc']))}': {e['msg']}" for e in errors.errors()
+                )
+                raise SystemExit(f"{path}: claim {name}: {faults}") from None
+            except (KeyError, IndexError) as key:
                 raise SystemExit(
-                    f"{path}: claim {claim.id} has {{{key.args[0]}}}, which is no key of the "
+                    f"{path}: claim {name} has {{{key.args[0]}}}, which is no key of the "
                     f"config; expected one of {', '.join(settings)}"
                 ) from None
+            except (TypeError, ValueError) as error:
+                raise SystemExit(f"{path}: claim {name}: {error}, in a number of braces") from None
             fault = tolerance_fault(claim)
             if claim.id in [each.id for each in claims]:
                 fault = "the id is there twice"

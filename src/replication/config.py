@@ -2,22 +2,36 @@
 
 import hashlib
 import re
-from collections.abc import Callable
 from difflib import get_close_matches
+from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, TypeVar
 
 import yaml
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    ValidationInfo,
+    create_model,
+    model_validator,
+)
+
+Entry = TypeVar("Entry")
 
 
-def _between(low: float, high: float) -> Callable:
-    def inside(number: float) -> float:
-        if not low <= number <= high:
-            raise ValueError(f"expected a number from {low:g} to {high:g}")
-        return number
+def _rising(numbers: list) -> list:
+    if any(high <= low for low, high in pairwise(numbers)):
+        raise ValueError("expected numbers that rise")
+    return numbers
 
-    return inside
+
+def _structure(name: str, about: ValidationInfo) -> str:
+    if name not in (names := [*map(str, about.context or ())]):
+        raise ValueError(f"expected a name of `structures`: {', '.join(names)}")
+    return name
 
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
@@ -25,14 +39,18 @@ Positive = Annotated[float, Field(gt=0, strict=True, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, strict=True, allow_inf_nan=False)]
 MassRatio = Annotated[float, Field(ge=0, strict=True)]  # γ; .inf is a frame with γ → ∞
 Fraction = Annotated[float, Field(gt=0, le=1, strict=True)]
-Count = Annotated[int, Field(ge=1, strict=True)]
-Degrees = Annotated[float, AfterValidator(_between(0.1, 60.0))]
-Shape = Annotated[
-    str,
-    Field(
-        pattern="^(one-sine|one-cosine|half-sine|constant|ricker-symmetric|ricker-antisymmetric)$"
-    ),
+Tolerance = Annotated[float, Field(gt=0, le=0.01, strict=True)]
+Duration = Annotated[float, Field(gt=0, le=1000, strict=True)]  # s
+Count = Annotated[int, Field(ge=1, le=10_000, strict=True)]
+Seed = Annotated[int, Field(ge=0, strict=True)]
+Degrees = Annotated[float, Field(ge=1, le=60, strict=True)]  # at least 1: no radians
+Shape = Literal[
+    "one-sine", "one-cosine", "half-sine", "constant", "ricker-symmetric", "ricker-antisymmetric"
 ]
+StructureName = Annotated[str, AfterValidator(_structure)]
+Items = Annotated[list[Entry], Field(min_length=1)]
+Pair = Annotated[list[Positive], Field(min_length=2, max_length=2)]
+Range = Annotated[list[Entry], Field(min_length=2, max_length=2), AfterValidator(_rising)]
 
 
 class Section(BaseModel):
@@ -41,20 +59,30 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
-class Grid(Section):
-    """A uniform grid of so many points."""
+def section(base: type[Section] = Section, /, **types: Any) -> Any:
+    """Return the model of a section from the types of its entries."""
+    return create_model("Section", __base__=base, **{name: (of, ...) for name, of in types.items()})
 
-    lowest: NotNegative
+
+class Span(Section):
+    """A range."""
+
+    lowest: Positive
     highest: Positive
-    points: Annotated[int, Field(ge=2, strict=True)]
 
     @model_validator(mode="after")
-    def ordered(self) -> "Grid":
+    def ordered(self) -> "Span":
         if self.highest <= self.lowest:
             raise ValueError(
                 f"highest is {self.highest:g}; expected more than lowest, {self.lowest:g}"
             )
         return self
+
+
+class Grid(Span):
+    """A range with so many points."""
+
+    points: Annotated[int, Field(ge=2, le=1000, strict=True)]
 
 
 class PulseOf(Section):
@@ -149,8 +177,9 @@ def read_yaml(path: str | Path) -> Any:
 def read_config(path: str, model: type[Section], content: Any = None) -> dict[str, Any]:
     """Return a checked config; a mistake ends the program with file, key, value and expectation."""
     content = read_yaml(path) if content is None else content
+    names = content.get("structures") if isinstance(content, dict) else ()
     try:
-        return model.model_validate(content).model_dump()
+        return model.model_validate(content, context=names).model_dump()
     except ValidationError as errors:
         raise SystemExit(
             "\n".join(f"{path}: {_message(e, model)}" for e in errors.errors())
@@ -168,6 +197,8 @@ def _message(error: Any, model: type[Section]) -> str:
     if error["type"] == "missing":
         return f"the key '{key}' is missing"
     entry, expected = error["input"], error["msg"].removeprefix("Value error, ")
+    if not key:  # of the sections together
+        return expected
     comma = ""
     if (
         isinstance(entry, str)

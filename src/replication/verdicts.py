@@ -92,6 +92,8 @@ def tolerance_fault(claim: Claim) -> str:
     if claim.tolerance is None:
         return ""
     printed, tolerance = claim.printed, claim.tolerance
+    if not isinstance(printed, int | float):
+        return f"printed is {printed!r}; expected a number, since there is a tolerance"
     rounding = print_rounding(printed)
     widest = max(LARGEST_RELATIVE_TOLERANCE * abs(printed), rounding)
     if tolerance > widest:

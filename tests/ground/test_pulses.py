@@ -3,10 +3,10 @@
 import math
 import re
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
-from pydantic import TypeAdapter
 
 import topheavy.ground.shapes
 from replication.config import Shape
@@ -182,7 +182,7 @@ def test_lists_are_parts_of_the_one_list():
 
 
 def test_config_takes_the_shapes_that_end_and_no_other():
-    assert TypeAdapter(Shape).json_schema()["pattern"] == f"^({'|'.join(FINITE_SHAPES)})$"
+    assert set(get_args(Shape)) == set(FINITE_SHAPES)
 
 
 def test_list_of_shapes_needs_no_numerics():
