@@ -26,10 +26,20 @@ def captions(path: str, config: dict) -> dict[str, dict]:
     return texts
 
 
-def compiled(source: str, inputs: dict[str, str], **how: Any) -> bytes:
-    """Return a document as PDF or HTML."""
+def texts_of(config: dict[str, Any], studies: list[str], captions_of: str) -> dict[str, str]:
+    """Return what a document takes from the run beside results/."""
+    return {
+        "studies": json.dumps(studies),
+        "config": yaml.safe_dump(config, allow_unicode=True),
+        "captions": json.dumps(captions(captions_of, config)),
+    }
+
+
+def compiled(source: str, texts: dict[str, str], root: str = ".", **how: Any) -> bytes:
+    """Return a document as PDF or HTML; `root` is the folder of its absolute paths."""
     try:
-        return typst.compile(source, root=".", ignore_system_fonts=True, sys_inputs=inputs, **how)
+        path = f"{root}/{source}"
+        return typst.compile(path, root=root, ignore_system_fonts=True, sys_inputs=texts, **how)
     except typst.TypstError as fault:  # its text has no place; the diagnostic has
         if hit := re.search(r"no meaning: (\S+): (.*)", fault.diagnostic):
             stop(
@@ -39,18 +49,20 @@ def compiled(source: str, inputs: dict[str, str], **how: Any) -> bytes:
         stop(f"{source} cannot be compiled\n{fault.diagnostic}")
 
 
+def checked(source: str, texts: dict[str, str], root: str = ".") -> Numbers:
+    """Return the numbers of a document; stop at one that has neither a source nor a reason."""
+    html = compiled(source, texts | {"check": "numbers"}, root, format="html").decode()
+    if without := (numbers := Numbers(html)).without:
+        stop(
+            f"{source}: numbers without a source (paper/format.typ says how to write one)\n"
+            + "\n".join(f"{number} in: {sentence}" for number, sentence in without)
+        )
+    return numbers
+
+
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        source, config = snakemake.input.source, snakemake.params.config
-        texts = {
-            "studies": json.dumps(snakemake.params.studies),
-            "config": yaml.safe_dump(config, allow_unicode=True),
-            "captions": json.dumps(captions(snakemake.input.captions, config)),
-        }
-        html = compiled(source, texts | {"check": "numbers"}, format="html").decode()
-        if without := Numbers(html).without:
-            stop(
-                f"{source}: numbers without a source (paper/format.typ says how to write one)\n"
-                + "\n".join(f"{number} in: {sentence}" for number, sentence in without)
-            )
+        source, params = snakemake.input.source, snakemake.params
+        texts = texts_of(params.config, params.studies, snakemake.input.captions)
+        checked(source, texts)
         publish(snakemake, {snakemake.output[0]: compiled(source, texts, pdf_standards=["a-2b"])})

@@ -1,0 +1,118 @@
+"""Documents from the published tables: every number has a source, every sentence a meaning."""
+
+import json
+import re
+import shutil
+from copy import deepcopy
+
+import pandas as pd
+import pytest
+
+from replication.config import read_yaml
+from steps.check import REFERENCE, findings, published
+from steps.typeset import checked, texts_of
+from tests.cases import ROOT
+
+DOCUMENTS = {name: f"paper/{name}.typ" for name in ("report", "supplement")}
+CONFIG = read_yaml(str(ROOT / "config/config.yaml"))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Return a folder with the texts, and results as the published tables give them."""
+    folder = tmp_path_factory.mktemp("documents")
+    for name in ("paper", "studies"):
+        shutil.copytree(ROOT / name, folder / name)
+    shutil.copy(ROOT / "CITATION.cff", folder)
+    shutil.copytree(REFERENCE, folder / "results/tables")
+    (folder / "results/findings").mkdir()
+    rules = json.loads((REFERENCE / "rules.json").read_text("utf-8"))
+    for rule, content in findings(rules).items():
+        (folder / f"results/findings/{rule}.json").write_text(json.dumps(content))
+    (folder / "results/claims.json").write_text(json.dumps(published()))
+    return folder
+
+
+def typeset(folder, document, config=CONFIG):
+    captions = str(ROOT / "figures/captions.yaml")
+    texts = texts_of(config, CONFIG["studies"], captions)
+    return checked(DOCUMENTS[document], texts, str(folder))
+
+
+def without(table, column, value):
+    """Return a change of the published tables or findings: a table without some rows."""
+
+    def change(folder):
+        path = folder / f"results/tables/{table}.csv"
+        rows = pd.read_csv(path)
+        rows[rows[column] != value].to_csv(path, index=False)
+
+    return change
+
+
+def without_finding(rule, name):
+    def change(folder):
+        path = folder / f"results/findings/{rule}.json"
+        content = json.loads(path.read_text("utf-8"))
+        del content[name]
+        path.write_text(json.dumps(content))
+
+    return change
+
+
+MEANINGLESS = {  # what the key is changed to, and what follows in results/
+    "motions.mass_ratios": ("report", [0.5, 2.0], without("motions_gains", "mass_ratio", 1.0)),
+    "vase.mass_ratios": ("report", [0.0], without_finding("vase", "minimum_at_mass_ratio_one")),
+    "records.capacity.mass_ratios": ("report", [0.0], without_finding("records", "gain_1")),
+    "spectra.slendernesses": ("report", [5.0], None),
+    "motions.scenarios": ("report", CONFIG["motions"]["scenarios"] * 2, None),
+    "gaps.checks": ("supplement", [{"friction": 5.0}], None),
+    "engine.across.checks": ("supplement", [{"time_step": 8e-4}], None),
+}
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_every_number_of_a_document_has_a_source_or_a_reason(folder, document):
+    count = typeset(folder, document).count
+    assert count["number"] > 200
+    assert count["typed"] < 60
+
+
+def test_a_number_that_is_typed_into_a_sentence_is_named_with_it(folder, tmp_path):
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    path = tmp_path / DOCUMENTS["report"]
+    text = path.read_text("utf-8")
+    path.write_text(text.replace("= Limits\n", "= Limits\n\nIt takes 12.3~s. Then it stops.\n"))
+    with pytest.raises(SystemExit, match=r"12\.3 in: It takes 12\.3 s\.$"):
+        typeset(tmp_path, "report")
+
+
+def test_the_keys_that_can_leave_a_sentence_without_a_meaning_are_listed():
+    paragraph = re.search(
+        r"A few lists.*?\n\n", (ROOT / "CONTRIBUTING.md").read_text("utf-8"), re.S
+    )
+    listed = set(re.findall(r"`([\w.]+)`", paragraph[0]))
+    texts = "".join((ROOT / path).read_text("utf-8") for path in DOCUMENTS.values())
+    needed = set(re.findall(r'needs\("([\w.]+)"', texts))
+    needed |= {f"{section}.checks" for section in re.findall(r'checks-of\("([\w.]+)"\)', texts)}
+    assert listed == needed == set(MEANINGLESS)
+    assert len(listed) <= 10
+    assert not listed & {"parameters.frames", "trilith.mass_ratio"}
+
+
+@pytest.mark.parametrize("key", MEANINGLESS)
+def test_a_sentence_without_a_meaning_stops_its_document_alone(key, folder, tmp_path):
+    document, value, change = MEANINGLESS[key]
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    if change:
+        change(tmp_path)
+    config = deepcopy(CONFIG)
+    *sections, name = key.split(".")
+    section = config
+    for each in sections:
+        section = section[each]
+    section[name] = value
+    with pytest.raises(SystemExit) as stopped:
+        typeset(tmp_path, document, config)
+    assert key in str(stopped.value)
+    assert "\n" not in str(stopped.value)
