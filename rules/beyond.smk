@@ -133,6 +133,7 @@ rule designers:
     input:
         "results/tables/motions_gains.csv",
         "results/tables/motions_rotations.csv",
+        "results/tables/uplift.csv",
         "results/tables/friction_by_mass.csv",
     output:
         table="results/tables/designers.csv",

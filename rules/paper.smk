@@ -189,6 +189,8 @@ rule spectra:
         spectra="results/tables/spectra.csv",
         areas="results/tables/spectra_areas.csv",
         histories="results/tables/spectra_histories.csv",
+        collapse="results/tables/spectra_collapse.csv",
+        cycles="results/tables/spectra_cycles.csv",
         findings="results/findings/spectra.json",
     log:
         "results/logs/spectra.log",

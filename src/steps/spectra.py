@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, run, truth, value
+from steps.shared import cycles
 from steps.shared.spectrum import (
     CHANGES,
     FRAME,
@@ -35,7 +36,8 @@ NEAR = 1e-4, 1e-3  # of a minimum: how close to it half of the sample is; bracke
 SHOWN, SAMPLES = 3.0, 751  # of the histories that are drawn: lengths of the pulse, and points
 LARGER = 2.0  # ratio of the frequencies that are compared: a column four times as large
 MANY = 10.0  # times the area of the other cause: chosen after we had seen both
-MINIMUM = "judged by the minimum overturning acceleration of a pulse"
+ONE_CYCLE = "the pulse is a Ricker wavelet, or one cycle of a sine or cosine"
+MINIMUM = f"judged by the minimum overturning acceleration; {ONE_CYCLE}"
 AREAS = ["slenderness_deg", "shape", "change", "mass_ratio", "beside"]
 
 
@@ -198,6 +200,21 @@ def areas_of(spectra: Spectra) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def collapse_of(spectra: Spectra) -> pd.DataFrame:
+    """Return the minima of the column and of the heaviest frame at the same ω over p̂ of each.
+
+    There the frame is the column with its √r.
+    """
+    heaviest = spectra.gammas[-1]
+    structures = {"column": (FRAME, COLUMN, 1.0), "frame": (RESTITUTION, heaviest, 1.0)}
+    rows = []
+    for slenderness, shape, ratio in spectra.places([tuple(structures.values())]):
+        row = {"slenderness_deg": slenderness, "shape": shape, "ratio_to_p_hat": ratio}
+        place = (slenderness, shape, ratio)
+        rows.append(row | {name: spectra.lowest(one, place) for name, one in structures.items()})
+    return pd.DataFrame(rows)
+
+
 def overturns(structure: tuple, place: tuple, amplitude: float, tightened: float) -> bool:
     """Return whether an amplitude overturns a structure, at a tightened tolerance and by SciPy."""
     _, block, pulse = line(*structure[:2], *place)
@@ -250,7 +267,10 @@ def histories(band: Band) -> pd.DataFrame:
 
 
 def compute(shards: list[pd.DataFrame], settings: dict, tightened: float) -> dict[str, Any]:
-    """Return the spectra of the frames, the shares of their maps, and one pair of histories."""
+    """Return the spectra of the frames, the shares of their maps, and one pair of histories.
+
+    Beside them the collapse over ω/p̂, and the minima under a sine of several cycles.
+    """
     table, last = pd.concat(shards), settings["amplitudes"]["highest"]
     table = looked_again(table, settings)
     table = table.sort_values([*KEYS, "lower"], ignore_index=True)
@@ -261,6 +281,8 @@ def compute(shards: list[pd.DataFrame], settings: dict, tightened: float) -> dic
         "spectra": table[table.change == FRAME].drop(columns="change"),
         "areas": areas_of(spectra),
         "histories": histories(max(bands, key=lambda band: band.width)),
+        "collapse": collapse_of(spectra),
+        "cycles": cycles.minima(settings),
     }
 
 
@@ -294,7 +316,30 @@ def ranking(spectra: Spectra, pairs: list[tuple]) -> dict[str, Any]:
     return truth(not bands, holds_when=higher, condition=MINIMUM, **evidence)
 
 
-def findings(spectra: pd.DataFrame, spectra_areas: pd.DataFrame, settings: dict) -> dict[str, Any]:
+def apart(spectra_collapse: pd.DataFrame, slow: float) -> dict[str, Any]:
+    """Return how far the minima at the same ω/p̂ are apart, up to a slow ω/p̂ and beyond it."""
+    table = spectra_collapse[np.isfinite(spectra_collapse[["column", "frame"]]).all(axis=1)]
+    gap, is_slow = table.frame / table.column - 1.0, table.ratio_to_p_hat <= slow
+    return {
+        f"collapse_{name}": value(
+            part.abs().median(),
+            0.0,
+            least=part.min(),
+            most=part.max(),
+            ninety=part.abs().quantile(0.9),
+            comparisons=len(part),
+        )
+        for name, part in (("slow", gap[is_slow]), ("fast", gap[~is_slow]))
+    }
+
+
+def findings(
+    spectra: pd.DataFrame,
+    spectra_areas: pd.DataFrame,
+    spectra_collapse: pd.DataFrame,
+    spectra_cycles: pd.DataFrame,
+    settings: dict,
+) -> dict[str, Any]:
     """Return the rankings with their exceptions, and the shares of the maps."""
     table, last = spectra.assign(change=FRAME), settings["amplitudes"]["highest"]
     whole = Spectra(table, last)
@@ -312,11 +357,18 @@ def findings(spectra: pd.DataFrame, spectra_areas: pd.DataFrame, settings: dict)
     heaviest = alone[alone.mass_ratio == whole.gammas[-1]]
     frame = heaviest[heaviest.change == FRAME]
     prevented, caused = (mean(frame, name) for name in ("prevented", "caused"))
-    found = {
+    several = cycles.finding(spectra_cycles, settings)
+    rises = all(ratio > 1.0 for ratio, *_ in neighbours)
+    found = several | apart(spectra_collapse, settings["slow"])
+    found |= {
         "minimum_rises_with_mass": truth(
-            all(ratio > 1.0 for ratio, *_ in neighbours), comparisons=len(neighbours)
+            rises and all(one["holds"] for one in several.values()),
+            holds_when=rises,
+            condition=ONE_CYCLE,
+            comparisons=len(neighbours),
         ),
         "heavier_is_more_stable": ranking(whole, pairs),
+        "heavier_or_larger_is_more_stable": ranking(whole, [*pairs, *larger]),
         "heavier_survives_every_pulse": truth(not whole.bands(pairs)),
         "frame_is_more_stable_than_its_column": ranking(
             whole, [pair for pair in pairs if pair[0][1] == COLUMN]
@@ -334,9 +386,9 @@ def findings(spectra: pd.DataFrame, spectra_areas: pd.DataFrame, settings: dict)
     by_size, by_restitution = (found[f"caused_by_{one}"]["value"] for one in (SIZE, RESTITUTION))
     found["caused_by_the_size"] = truth(by_size > MANY * by_restitution)
     twin = spectra_areas[spectra_areas.beside == "equivalent column"]
-    apart = zip(*(mean(twin, name) for name in ("prevented", "caused")), strict=True)
+    differs = zip(*(mean(twin, name) for name in ("prevented", "caused")), strict=True)
     largest = (twin.prevented + twin.caused).max()
-    return found | {"equivalent_column_differs": value(*map(sum, apart), largest=largest)}
+    return found | {"equivalent_column_differs": value(*map(sum, differs), largest=largest)}
 
 
 if __name__ == "__main__":

@@ -169,6 +169,10 @@ def test_an_overturned_structure_counts_as_above_the_median():
     settings = SETTINGS | {"rotations": {"velocities": [0.6]}}
     found = motions.rotations("model", peaks, settings)
     assert [row["median_peak"] for row in found] == [math.inf] + [0.2] * 5
+    first = np.arange(125.0)[::-1, None, None]
+    row, *_ = motions.rotations("model", np.repeat(first, 6, axis=1), settings)
+    ends = [row[f"median_peak{end}"] for end in ("_low", "", "_high")]
+    assert ends == [51.0, 62.0, 73.0]  # the 52nd and the 74th of 125
 
 
 TABLES = {

@@ -13,6 +13,7 @@ import topheavy as th
 from replication.config import read_config
 from replication.sections import Paper
 from steps import animation, proven, spectra, spectra_shard, uplift, vase
+from steps.shared import cycles
 from steps.shared.histories import history
 from steps.shared.spectrum import FRAME, KEYS, line
 from tests.cases import COLUMN, ROOT, SIZES, broken
@@ -27,6 +28,8 @@ SPECTRA = CONFIG["spectra"] | {
     "shapes": ["one-cosine"],
     "mass_ratios": [0.0, 1.0, math.inf],
     "frequency_ratios": {"lowest": 1.25, "highest": 4.25, "points": 13},
+    "cycles": CONFIG["spectra"]["cycles"]
+    | {"numbers": [3], "frequency_ratios": {"lowest": 4.0, "highest": 5.0, "points": 2}},
     "sample": {"points": 6, "seed": 1},
 }
 VASE = CONFIG["vase"] | {
@@ -112,26 +115,86 @@ def test_shares_are_those_of_known_intervals():
 
 
 KNOWN = {"heavier_is_more_stable", "frame_is_more_stable_than_its_column", "larger_is_more_stable"}
+KNOWN |= {"heavier_or_larger_is_more_stable"}
 EVERY = "heavier_survives_every_pulse"
 
 
 def test_findings_of_spectra(tables):
-    found = spectra.findings(tables["spectra"], tables["areas"], SPECTRA)
+    rest = {"spectra_collapse": tables["collapse"], "spectra_cycles": tables["cycles"]}
+    rest["settings"] = SPECTRA
+    found = spectra.findings(tables["spectra"], tables["areas"], **rest)
     assert broken(found) == KNOWN | {EVERY}
     assert not unmet(found)
     assert found["heavier_is_more_stable"]["width"] > 0.2
     swapped = tables["spectra"].replace({"mass_ratio": {1.0: math.inf, math.inf: 1.0}})
-    found = spectra.findings(swapped, tables["areas"], SPECTRA)
+    found = spectra.findings(swapped, tables["areas"], **rest)
     assert broken(found) - KNOWN - {EVERY} == {
         "minimum_rises_with_mass",
         "never_caused_without_impact",
     }
     assert found["heavier_is_more_stable"]["holds_when"] is False
     harmful = tables["areas"].rename(columns={"prevented": "caused", "caused": "prevented"})
-    found = spectra.findings(tables["spectra"], harmful, SPECTRA)
+    found = spectra.findings(tables["spectra"], harmful, **rest)
     assert "prevents_more_than_it_causes" in broken(found)
     alike = tables["areas"].assign(caused=0.01)
-    assert "caused_by_the_size" in broken(spectra.findings(tables["spectra"], alike, SPECTRA))
+    assert "caused_by_the_size" in broken(spectra.findings(tables["spectra"], alike, **rest))
+
+
+SEVERAL = {
+    "slendernesses": [9.462322],
+    "mass_ratios": [0.0, 0.25, 0.5, 1.0, 2.0, math.inf],
+    "cycles": SPECTRA["cycles"] | {"resolution": 0.02},
+}
+
+
+@pytest.mark.parametrize(
+    ("ratio", "known"),
+    [
+        (3.75, {2.0: 2.1478, math.inf: 2.1004, 0.0: 1.555}),
+        (4.0, {0.5: 2.1930, 1.0: 2.1612, 0.0: 1.683}),
+        (4.125, {0.25: 2.220, 0.5: 2.191, 0.0: 1.717}),
+    ],
+)
+def test_minimum_falls_under_three_cycles_of_a_sine(ratio, known):
+    """The values are those of a code that shares no line with ours."""
+    gammas, one = sorted(known), {"lowest": ratio, "highest": ratio + 1.0, "points": 1}
+    settings = SEVERAL | {"mass_ratios": gammas}
+    settings["cycles"] = SEVERAL["cycles"] | {"frequency_ratios": one}
+    table = as_written({"table": cycles.minima(settings)})["table"]
+    assert table.minimum.to_list() == pytest.approx([known[one] for one in gammas], abs=5e-4)
+    found = cycles.finding(table, settings)
+    assert broken(found) == {"cycles_rise_with_mass"}
+    light, heavy = known[gammas[1]], known[gammas[2]]
+    assert found["cycles_rise_with_mass"]["fall_3"] == pytest.approx(1.0 - heavy / light, abs=3e-4)
+    narrow = table.assign(wide_minimum=math.inf)
+    assert not broken(cycles.finding(narrow, settings))
+
+
+def test_frame_falls_below_its_column_under_three_cycles_of_a_sine():
+    one = {"lowest": 4.4375, "highest": 5.0, "points": 1}
+    settings = SEVERAL | {"mass_ratios": [0.0, 0.25, math.inf]}
+    settings["cycles"] = SEVERAL["cycles"] | {"frequency_ratios": one}
+    table = cycles.minima(settings)
+    assert broken(cycles.finding(table, settings)) == {"cycles_frame_is_above_its_column"}
+    wrong = cycles.falls(table, [(0.0, 0.25)]).assign(minimum=2.1)
+    with pytest.raises(SystemExit, match=r"at 2\.1"):
+        cycles.check_falls(wrong)
+
+
+def test_collapse_compares_the_frame_with_a_column_of_its_restitution(shards):
+    table = spectra.collapse_of(spectra.Spectra(pd.concat(shards), 16.0))
+    place = (5.0, "one-cosine", 2.0)
+    block = line("restitution", math.inf, *place)
+    (expected,) = table[table.ratio_to_p_hat == 2.0].frame
+    assert judge_at(block, 1.001 * expected) > judge_at(block, 0.999 * expected)
+    gap = table.assign(frame=1.1 * table.column)
+    found = spectra.apart(gap, 3.0)
+    assert found["collapse_slow"]["value"] == pytest.approx(0.1)
+    assert found["collapse_fast"]["ninety"] == pytest.approx(0.1)
+
+
+def judge_at(of, factor):
+    return th.judge(of.block, of.pulse.scaled(factor)).overturned
 
 
 def test_sample_notices_wrong_intervals(shards):

@@ -1,7 +1,7 @@
 """Table for designers: what a cap beam of each γ does to a column.
 
-Geometry, and ranges over the tables of the rules motions and friction. Under γ = ∞ the force of a
-column acts along its diagonal: the required friction is tan α, that of uplift.
+Geometry, and ranges over the tables of the rules motions, uplift and friction. Under γ = ∞ the
+force of a column acts along its diagonal: the required friction is tan α, that of uplift.
 """
 
 import math
@@ -12,7 +12,9 @@ from topheavy.bodies.kinematics import cap_displacement
 from topheavy.forces.frame import base_shear_slope, centre_height
 
 
-def compute(settings, friction, structures, motions_gains, motions_rotations, friction_by_mass):
+def compute(
+    settings, friction, structures, motions_gains, motions_rotations, uplift, friction_by_mass
+):
     column = Column(**structures[settings["structure"]])
     cap = Cap(friction["bays"][0], friction["depth"] / 2.0)
     friction_of = friction_by_mass.set_index(["bay", "mass_ratio"]).required
@@ -27,10 +29,17 @@ def compute(settings, friction, structures, motions_gains, motions_rotations, fr
         row |= {"gain_least": gains.min(), "gain_most": gains.max()}
         turned = motions_rotations[motions_rotations.mass_ratio == gamma]
         for velocity in settings["velocities"]:
-            peaks = turned.median_peak[turned.velocity == velocity] * column.slenderness
-            ends = (travel(column, end) / (2.0 * column.half_width) for end in ends_of(peaks))
-            row |= dict(zip((f"least_{velocity:g}", f"most_{velocity:g}"), ends, strict=True))
+            at = turned[turned.velocity == velocity]
+            for name, peak in (
+                ("least", at.median_peak.min()),
+                ("most", at.median_peak.max()),
+                ("low", at.median_peak_low.min()),
+                ("high", at.median_peak_high.max()),
+            ):
+                moved = travel(column, peak * column.slenderness)
+                row[f"{name}_{velocity:g}"] = moved / (2.0 * column.half_width)
         row["base_shear_slope"] = base_shear_slope(frame)
+        row["base_shear_largest"] = uplift.base_shear[uplift.mass_ratio == gamma].max()
         row["depth_over_width"] = centre_height(frame, cap) / column.half_height
         for bay in friction["bays"]:
             limit = frame.uplift_acceleration if math.isinf(gamma) else None
@@ -38,10 +47,6 @@ def compute(settings, friction, structures, motions_gains, motions_rotations, fr
             row[f"friction_{bay:g}"] = limit or friction_of[at]
         rows.append(row)
     return rows
-
-
-def ends_of(peaks):
-    return peaks.min(), peaks.max()
 
 
 def travel(column, rotation):

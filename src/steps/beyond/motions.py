@@ -8,6 +8,7 @@ from functools import partial
 from itertools import combinations
 
 import numpy as np
+from scipy.stats import binom
 
 from replication.step import check, run, truth, value
 from steps.shared.ensemble import Ensemble
@@ -151,11 +152,19 @@ def curves(model, shares, settings, column):
 
 
 def rotations(model, peaks, settings):
-    """Return the median of the peaks of |θ|/α; an overturned structure counts as above it."""
+    """Return the median of the peaks of |θ|/α; an overturned structure counts as above it.
+
+    The interval of a median is that of its ranks by the binomial distribution.
+    """
+    tail = (1.0 - settings["bootstrap"]["confidence"]) / 2.0
+    rank = max(int(binom.ppf(tail, len(peaks), 0.5)), 1)
+    ordered = np.sort(peaks, axis=0)
+    ends = {"_low": ordered[rank - 1], "": np.median(peaks, axis=0), "_high": ordered[-rank]}
     return [
-        {"model": model, "mass_ratio": gamma, "velocity": velocity, "median_peak": median}
-        for gamma, of in zip([0.0, *settings["mass_ratios"]], np.median(peaks, axis=0), strict=True)
-        for velocity, median in zip(settings["rotations"]["velocities"], of, strict=True)
+        {"model": model, "mass_ratio": gamma, "velocity": velocity}
+        | {f"median_peak{end}": of[place, level] for end, of in ends.items()}
+        for place, gamma in enumerate([0.0, *settings["mass_ratios"]])
+        for level, velocity in enumerate(settings["rotations"]["velocities"])
     ]
 
 

@@ -30,8 +30,10 @@ def column_of(slenderness: float) -> Column:
     return Column(math.sin(alpha), math.cos(alpha))
 
 
-def line(change: str, gamma: float, slenderness: float, shape: str, ratio: float) -> Line:
-    """Return the line of a frame, by the `KEYS`.
+def line(
+    change: str, gamma: float, slenderness: float, shape: str, ratio: float, cycles: int = 1
+) -> Line:
+    """Return the line of a frame, by the `KEYS`, and the number of cycles of its pulse.
 
     A slenderness is in degrees; a frequency is over p of the column.
     """
@@ -42,7 +44,8 @@ def line(change: str, gamma: float, slenderness: float, shape: str, ratio: float
         SIZE: frame.with_restitution(alone.restitution),
         RESTITUTION: alone.with_restitution(frame.restitution),
     }[change]
-    pulse = Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter)
+    omega = ratio * column.frequency_parameter
+    pulse = Pulse(shape, column.uplift_acceleration, omega, cycles=cycles)
     labels = dict(zip(KEYS, (change, gamma, slenderness, shape, ratio), strict=True))
     return Line(labels, block, pulse)
 
