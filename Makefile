@@ -10,7 +10,7 @@ DEV     = $(UV) run --locked
 export PYTHONDONTWRITEBYTECODE :=
 
 .DEFAULT_GOAL := help
-.PHONY: help reproduce unlock check test lint study publish notebooks faults archive cluster-test clean
+.PHONY: help reproduce unlock check audit test lint study publish notebooks faults archive cluster-test clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' Makefile | \
@@ -32,6 +32,9 @@ unlock: | $(UV) ## after a killed run: let the next run begin
 check: | $(UV) ## without a run: checksums, and every claim judged again from the published tables
 	@sha256sum --quiet --check docs/SHA256SUMS
 	@$(RUN) python -m steps.check
+
+audit: | $(UV) ## without a run: recompute what README says by one file, from the equations
+	@$(RUN) python -I src/audit.py
 
 test: | $(UV) ## run the tests
 	@OMP_NUM_THREADS=1 $(DEV) pytest --numprocesses "$(CORES)" --dist worksteal

@@ -1,0 +1,113 @@
+"""src/audit.py: alone, it confirms what is published; a changed number or sign it names."""
+
+import ast
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+AUDIT = ROOT / "src" / "audit.py"
+CHEAP = ("trust", "parameters", "trilith", "allen", "histories", "gains")
+
+ABSTRACT = {  # what the abstract computes, and the line of the audit
+    "size": "README: size",
+    "trilith": "README: trilith",
+    "allen-error": "README: allen",
+    "never": "minima that decrease as the beam becomes heavier",
+    "gain": "README: gain",
+}
+NOT_RECOMPUTED = {"keeps # to # % less velocity after impacts"}
+
+
+def audit(folder, *parts, file=AUDIT):
+    command = [sys.executable, "-I", str(file), str(folder), *parts]
+    return subprocess.run(command, capture_output=True, text=True, encoding="utf-8", timeout=300)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder with what the audit reads, and not one module of the project."""
+    shutil.copy(ROOT / "README.md", tmp_path)
+    for inside in ("tests/reference", "data/records"):
+        shutil.copytree(ROOT / inside, tmp_path / inside)
+    shutil.copy(AUDIT, tmp_path)
+    return tmp_path
+
+
+def replaced(path, old, new):
+    text = path.read_text(encoding="utf-8")
+    assert text.count(old) == 1, old
+    path.write_text(text.replace(old, new), encoding="utf-8")
+
+
+def test_it_imports_the_standard_library_numpy_and_scipy_alone_and_keeps_its_length():
+    text = AUDIT.read_text(encoding="utf-8")
+    names = set()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names.add("." * node.level + (node.module or "").split(".")[0])
+    assert names <= {*sys.stdlib_module_names, "numpy", "scipy"}
+    assert text.count("\n") <= 750
+
+
+def test_what_is_published_is_confirmed(folder):
+    done = audit(folder, *CHEAP, file=folder / "audit.py")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    ("path", "old", "new", "part", "named"),
+    [
+        ("README.md", "R̂ is at most 1.5 times", "R̂ is at most 1.6 times", "parameters", "size"),
+        ("tests/reference/trilith_numbers.csv", "3.79363632", "3.83157", "trilith", "frame_freq"),
+        ("tests/reference/mass_ratio.csv", "\n1,0.866025404", "\n1,0.8747", "parameters", "(23)"),
+        ("README.md", "| trilith of", "| 37 % of the trilith of", "trust", "37 is not known here"),
+    ],
+)
+def test_a_changed_number_is_named(folder, path, old, new, part, named):
+    replaced(folder / path, old, new)
+    done = audit(folder, part)
+    assert done.returncode == 1
+    assert named in done.stdout.rpartition(" depart\n")[2]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "part", "named"),
+    [
+        ("1 - 1.5 * math.sin", "1 + 1.5 * math.sin", "parameters", "Eq. (25)"),
+        ("(1 + 2 * gamma) / (1 +", "(1 - 2 * gamma) / (1 +", "parameters", "Eq. (23)"),
+        (
+            "return -drive.ground.weight(x) * lean",
+            "return drive.ground.weight(x) * lean",
+            "trust",
+            "cl",
+        ),
+        ("np.sin(lean) - a * np.cos", "np.sin(lean) + a * np.cos", "histories", "exact"),
+    ],
+)
+def test_a_turned_sign_is_named(folder, old, new, part, named):
+    replaced(folder / "audit.py", old, new)
+    done = audit(folder, part, file=folder / "audit.py")
+    assert done.returncode == 1
+    assert named in done.stderr + done.stdout.rpartition(" depart\n")[2]
+
+
+def test_numbers_of_the_abstract_are_recomputed_and_the_others_listed():
+    text = (ROOT / "paper" / "report.typ").read_text(encoding="utf-8")
+    abstract = text.partition("abstract: [")[2].partition("\n  ],")[0]
+    abstract = re.sub(r"#named\(input\([^)]*\)", "", abstract)
+    names = {
+        name for pair in re.findall(r"#(?:fix|named)\((\w+)|#([\w-]+)", abstract) for name in pair
+    }
+    assert names - {"", "fix", "named", "number", "if", "allen-ratio"} <= set(ABSTRACT)
+    source = AUDIT.read_text(encoding="utf-8")
+    for line in ABSTRACT.values():
+        assert line in source or f'"{line.removeprefix("README: ")}"' in source
+    listed = source.partition("NOT_RECOMPUTED = {")[2].partition("\n}")[0]
+    assert set(re.findall(r'^    "([^"]*)":', listed, re.MULTILINE)) == NOT_RECOMPUTED
