@@ -17,12 +17,16 @@ SECTION = """#import "/paper/format.typ": *
 """
 COMPILE = """import json, typst, yaml
 from replication.claims import judged, read_claims, read_findings
+from replication.numbers import Numbers
 settings = yaml.safe_load(open("studies/bridge/config.yaml"))
 claims = read_claims("studies/bridge/claims.yaml", settings)
 found = read_findings(["results/findings/bridge_capacity.json"])
 rows = [judged(claim, found) for claim in claims]
 json.dump(rows, open("results/claims.json", "w"))
-typst.compile("section.typ", root=".", sys_inputs={"config": "{}", "captions": "{}"})
+texts = {"config": "{}", "captions": "{}"}
+typst.compile("section.typ", root=".", sys_inputs=texts)
+html = typst.compile("section.typ", root=".", sys_inputs=texts | {"check": ""}, format="html")
+print("without a source:", Numbers(html.decode()).without)
 print({row["id"]: row["verdict"] for row in rows})
 """
 
@@ -79,6 +83,7 @@ def test_the_page_is_followed_literally(copy):
     code, told = run(copy, sys.executable, "-c", COMPILE)
     assert code == 0, told
     assert "'bridge_gain_is_large': 'refuted'" in told
+    assert "without a source: []" in told
     (copy / "section.typ").unlink()
     assert run(copy, "sh", "-e", "-c", remove[1])[0] == 0
     assert contents(copy) == before
