@@ -1,6 +1,7 @@
 """Verdicts, the digits of numbers, claims, and what is said of a mistake in a step or config."""
 
 import math
+import sys
 from functools import reduce
 from operator import getitem
 from types import SimpleNamespace
@@ -228,6 +229,20 @@ def test_mistake_in_a_step_is_named_in_its_log(tmp_path, compute, findings, mess
     told = log[0].read_text("utf-8")
     assert message in told
     assert told.startswith("tests/test_replication.py: ")
+
+
+def test_failed_write_leaves_no_file(tmp_path):
+    for process in (1, 99999999):  # one that is alive, and none
+        (tmp_path / f"a.csv.{process}.new").touch()
+    job = SimpleNamespace(rule="tiny", input=[], params={"code": list_of_modules()})
+    with pytest.raises(FileNotFoundError):
+        step.publish(job, {str(tmp_path / "a.csv"): "x", str(tmp_path / "no" / "b.csv"): "x"})
+    assert [path.name for path in tmp_path.iterdir()] == ["a.csv.1.new"]
+
+
+def list_of_modules():
+    files = [getattr(module, "__file__", None) for module in list(sys.modules.values())]
+    return [path for path in files if path]
 
 
 # Configs ------------------------------------------------------------------------------------------

@@ -73,8 +73,8 @@ def render(notebook: Any, title: str) -> str:
     return body
 
 
-def execute(source: Path) -> tuple[Any, list[str]]:
-    """Return a notebook with the outputs of its cells, and the files of the modules it loaded."""
+def execute(source: Path) -> Any:
+    """Return a notebook with the outputs of its cells; its metadata name the modules it loaded."""
     private = tempfile.mkdtemp()  # nothing of a user's own set-up may leak in
     Path(private, "matplotlibrc").touch()
     os.environ |= {
@@ -98,13 +98,15 @@ def execute(source: Path) -> tuple[Any, list[str]]:
     )
     client.execute()
     (listed,) = notebook.cells.pop().outputs
-    return notebook, json.loads(listed["text"])
+    notebook.metadata["modules"] = json.loads(listed["text"])
+    return notebook
 
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         source = Path(snakemake.input.notebook)
-        notebook, modules = execute(source)
+        notebook = execute(source)
+        modules = notebook.metadata.pop("modules")
         made = {
             snakemake.output.executed: json.dumps(notebook, indent=1, ensure_ascii=False) + "\n",
             snakemake.output.page: render(notebook, source.stem),
