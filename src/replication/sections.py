@@ -141,7 +141,7 @@ Paper = section(
         frequency_ratios=Grid,
         amplitudes=section(Span, resolution=Fraction),
         finer=section(below=Positive, resolution=Fraction),
-        slow=Positive,
+        collapse=section(slow=Positive, covered=Fraction),
         cycles=section(
             numbers=Items[Count],
             frequency_ratios=Grid,

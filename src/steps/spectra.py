@@ -316,17 +316,19 @@ def ranking(spectra: Spectra, pairs: list[tuple]) -> dict[str, Any]:
     return truth(not bands, holds_when=higher, condition=MINIMUM, **evidence)
 
 
-def apart(spectra_collapse: pd.DataFrame, slow: float) -> dict[str, Any]:
-    """Return how far the minima at the same ω/p̂ are apart, up to a slow ω/p̂ and beyond it."""
+def apart(spectra_collapse: pd.DataFrame, slow: float, covered: float) -> dict[str, Any]:
+    """Return how far the minima at the same ω/p̂ are apart, up to a slow ω/p̂ and beyond it.
+
+    `covered` is the difference that a share of the comparisons does not exceed.
+    """
     table = spectra_collapse[np.isfinite(spectra_collapse[["column", "frame"]]).all(axis=1)]
     gap, is_slow = table.frame / table.column - 1.0, table.ratio_to_p_hat <= slow
     return {
         f"collapse_{name}": value(
             part.abs().median(),
             0.0,
-            least=part.min(),
-            most=part.max(),
-            ninety=part.abs().quantile(0.9),
+            covered=part.abs().quantile(covered),
+            most=part.abs().max(),
             comparisons=len(part),
         )
         for name, part in (("slow", gap[is_slow]), ("fast", gap[~is_slow]))
@@ -359,7 +361,7 @@ def findings(
     prevented, caused = (mean(frame, name) for name in ("prevented", "caused"))
     several = cycles.finding(spectra_cycles, settings)
     rises = all(ratio > 1.0 for ratio, *_ in neighbours)
-    found = several | apart(spectra_collapse, settings["slow"])
+    found = several | apart(spectra_collapse, **settings["collapse"])
     found |= {
         "minimum_rises_with_mass": truth(
             rises and all(one["holds"] for one in several.values()),

@@ -188,9 +188,9 @@ def test_collapse_compares_the_frame_with_a_column_of_its_restitution(shards):
     (expected,) = table[table.ratio_to_p_hat == 2.0].frame
     assert judge_at(block, 1.001 * expected) > judge_at(block, 0.999 * expected)
     gap = table.assign(frame=1.1 * table.column)
-    found = spectra.apart(gap, 3.0)
+    found = spectra.apart(gap, 3.0, 0.9)
     assert found["collapse_slow"]["value"] == pytest.approx(0.1)
-    assert found["collapse_fast"]["ninety"] == pytest.approx(0.1)
+    assert found["collapse_fast"]["covered"] == pytest.approx(0.1)
 
 
 def judge_at(of, factor):

@@ -30,12 +30,8 @@ def compute(
         turned = motions_rotations[motions_rotations.mass_ratio == gamma]
         for velocity in settings["velocities"]:
             at = turned[turned.velocity == velocity]
-            for name, peak in (
-                ("least", at.median_peak.min()),
-                ("most", at.median_peak.max()),
-                ("low", at.median_peak_low.min()),
-                ("high", at.median_peak_high.max()),
-            ):
+            ends = {"low": at.median_peak_low.min(), "high": at.median_peak_high.max()}
+            for name, peak in ends.items():
                 moved = travel(column, peak * column.slenderness)
                 row[f"{name}_{velocity:g}"] = moved / (2.0 * column.half_width)
         row["base_shear_slope"] = base_shear_slope(frame)
