@@ -1,7 +1,8 @@
 """Makris & Vassiliou (2014): config → tables → findings → verdicts, figures, documents.
 
 A rule names its script, inputs, outputs, and as parameters its code and its section of the config.
-A change of one of them repeats the rule, also when a file has an older time. A study is a folder in studies/, named in `studies`.
+A change of one of them repeats the rule, also when a file has an older time. A study is a folder in
+studies/, named in `studies`.
 """
 
 import os
@@ -55,6 +56,10 @@ def code(script, *more, rule=""):
         if not os.path.isfile(path):
             sys.exit(f"a rule names the file {path}, which is not there")
     name = rule or Path(script).stem
+    if name in SCRIPTS:
+        sys.exit(
+            f"two rules are {name} in code(…); expected code(…, rule=…) with their names"
+        )
     SCRIPTS[name] = (script, *more)
     return lambda wildcards: dependencies(name)
 
