@@ -140,6 +140,7 @@ rule verification:
     output:
         verification_routes="results/tables/verification_routes.csv",
         verification_published="results/tables/verification_published.csv",
+        verification_closed_forms="results/tables/verification_closed_forms.csv",
         findings="results/findings/verification.json",
     log:
         "results/logs/verification.log",

@@ -59,3 +59,22 @@ def test_another_claim_has_a_paragraph_and_a_discrepancy_its_place():
     assert "**`uplift`** (qualified). True if ω is at most 2 p. For one pulse." in text
     assert "| confirmed (our copy differs) |" in text
     assert text.endswith("- p. 3 (`uplift`), sign. For one pulse.\n")
+
+
+ENTRIES = (ROOT / "paper/references.bib").read_text("utf-8").split("\n@")[1:]
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: re.search(r"{(\w+)", entry)[1])
+def test_a_reference_has_year_and_source_and_says_what_confirms_it(entry):
+    fields = set(re.findall(r"^ +(\w+) += {.", entry, re.MULTILINE))
+    assert {"author", "title", "year"} <= fields
+    assert fields & {"journal", "booktitle", "publisher", "institution", "url"}
+    assert fields & {"confirmed", "unconfirmed"}
+
+
+def test_each_reference_is_cited_and_each_source_is_a_reference():
+    keys = {re.search(r"{(\w+)", entry)[1] for entry in ENTRIES}
+    config = yaml.safe_load((ROOT / "config/config.yaml").read_text("utf-8"))
+    sources = {row["source"] for row in config["verification"]["published"]}
+    cited = {key for text in TEXTS.values() for key in re.findall(r"[<@]([a-z]+\d{4})\b", text)}
+    assert cited | sources == keys

@@ -130,7 +130,14 @@ Paper = section(
         frequency_ratios=Range[Positive],
         amplitudes=Range[Positive],
         published=Items[
-            section(quantity=str, source=str, printed=Number, expected=Number, tolerance=Tolerance)
+            section(
+                quantity=str,
+                source=str,
+                printed=Number,
+                to=Number,
+                expected=Number,
+                tolerance=Tolerance,
+            )
         ],
     ),
     spectra=section(

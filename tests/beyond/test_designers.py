@@ -13,8 +13,14 @@ FRICTION = {"bays": [5.0], "depth": 1.0}
 STRUCTURES = {"one": {"half_width": 0.5, "half_height": 3.0}}
 GAINS = pd.DataFrame({"mass_ratio": [1.0, 1.0, math.inf], "gain": [0.1, 0.3, 0.2]})
 ROTATIONS = pd.DataFrame(
-    {"mass_ratio": [0.0, 1.0, 1.0, math.inf], "velocity": 0.4}
-    | {"median_peak_low": [0.7, 0.5, 0.6, 0.2], "median_peak_high": [math.inf, 1.0, 0.8, 0.3]}
+    {
+        "mass_ratio": [0.0, 1.0, 1.0, math.inf, 0.0, 1.0, math.inf],
+        "velocity": 0.4,
+        "median_peak": [math.inf, 0.5, 0.0, 0.5, 0.8, 0.4, 0.5],
+        "median_peak_low": [0.7, 0.5, 0.6, 0.2, 0.7, 0.5, 0.2],
+        "median_peak_high": [math.inf, 1.0, 0.8, 0.3, math.inf, 1.0, 0.3],
+        "model": ["a", "a", "b", "a", "c", "c", "c"],
+    }
 )
 SHEARS = pd.DataFrame({"mass_ratio": [0.0, 1.0, 1.0, 1.0], "base_shear": [0.4, 0.2, 0.3, math.nan]})
 REQUIRED = pd.DataFrame({"bay": [0.0, 5.0], "mass_ratio": [0.0, 1.0], "required": [0.6, 0.5]})
@@ -31,15 +37,26 @@ def test_numbers_are_those_by_hand():
     half = designers.travel(COLUMN, 0.5 * COLUMN.slenderness)
     assert (equal["low_0.4"], equal["high_0.4"]) == pytest.approx((half, 1.0))
     assert equal["base_shear_largest"] == 0.3
+    # of "c" alone: the column overturns in "a" and is not in "b"
+    assert equal["moved_least"] == equal["moved_most"] == pytest.approx(0.5, abs=0.01)
+    assert heaviest["moved_most"] == pytest.approx(0.625, abs=0.01)
     assert equal["depth_over_width"] == pytest.approx((3.0 + 6.5) / 2 / 3.0)
     slope = 0.75 * math.cos(COLUMN.slenderness) ** 2
     assert column["base_shear_slope"] == pytest.approx(1.0 - slope)
     assert [row["friction_5"] for row in rows] == pytest.approx([0.6, 0.5, 1 / 6])
 
 
-@pytest.mark.parametrize(("most", "holds"), [(0.3, True), (0.15, False)])
-def test_a_larger_gain_shows_that_the_scale_is_no_bound(most, holds):
-    table = pd.DataFrame(
-        {"mass_ratio": [0.0, 1.0], "gain_least": 0.1, "gain_most": most, "velocity_scale": 0.1547}
-    )
-    assert designers.findings(table)["scale_is_no_bound"]["holds"] == holds
+@pytest.mark.parametrize(
+    ("finding", "most", "holds"),
+    [
+        ("scale_is_no_bound", 0.3, True),
+        ("scale_is_no_bound", 0.15, False),
+        ("larger_block_moves_no_farther", 0.75, True),
+        ("larger_block_moves_no_farther", 0.76, False),
+    ],
+)
+def test_a_larger_number_decides(finding, most, holds):
+    row = {"gain_least": 0.1, "gain_most": most, "velocity_scale": 0.1547}
+    row |= {"moved_least": 0.6, "moved_most": most, "size_ratio": 4 / 3}
+    table = pd.DataFrame([row | {"mass_ratio": 0.0}, row | {"mass_ratio": 1.0}])
+    assert designers.findings(table)[finding]["holds"] == holds

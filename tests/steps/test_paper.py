@@ -177,21 +177,28 @@ def test_errors_are_of_pulses_that_overturn_neither_and_have_a_range_over_pulses
 
 
 @pytest.mark.parametrize(
-    ("row", "change"), [("routes", "outcomes_that_differ"), ("published", "computed")]
+    ("row", "change", "words"),
+    [
+        ("routes", "outcomes_that_differ", "outcomes differ"),
+        ("published", "computed", "literature, one differ"),
+        ("closed", "computed", "closed form"),
+    ],
 )
-def test_solver_that_differs_stops_verification(row, change):
+def test_solver_that_differs_stops_verification(row, change, words):
     routes = pd.DataFrame([{"outcomes_that_differ": 0, "error_99": 1e-9, "cells": 9}])
     number = {
         "quantity": "one",
-        "printed": 1.0,
+        "printed": 0.99,
+        "to": 1.01,
         "expected": 1.0,
         "tolerance": 1e-3,
         "computed": 1.0,
     }
-    given = {"routes": routes, "published": pd.DataFrame([number])}
-    verification.findings(*given.values())
+    closed = pd.DataFrame([{"closed_form": 1.0, "computed": 1.0}])
+    given = {"routes": routes, "published": pd.DataFrame([number]), "closed": closed}
+    assert verification.findings(*given.values())["farthest_from_print"]["value"] == 0.0
     given[row].loc[0, change] += 1
-    with pytest.raises(SystemExit, match="differ"):
+    with pytest.raises(SystemExit, match=words):
         verification.findings(*given.values())
 
 

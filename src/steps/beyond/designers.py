@@ -18,6 +18,10 @@ def compute(
     column = Column(**structures[settings["structure"]])
     cap = Cap(friction["bays"][0], friction["depth"] / 2.0)
     friction_of = friction_by_mass.set_index(["bay", "mass_ratio"]).required
+    near = motions_rotations[motions_rotations.velocity.isin(settings["velocities"])]
+    peaks = near.pivot(index=["model", "velocity"], columns="mass_ratio", values="median_peak")
+    peaks = peaks[(peaks < 1.0).all(axis=1)]
+    travels = peaks.map(lambda peak: travel(column, peak * column.slenderness))
     rows = []
     for gamma in settings["mass_ratios"]:
         frame = RockingFrame(column, gamma)
@@ -34,6 +38,8 @@ def compute(
             for name, peak in ends.items():
                 moved = travel(column, peak * column.slenderness)
                 row[f"{name}_{velocity:g}"] = moved / (2.0 * column.half_width)
+        of_column = travels[gamma] / travels[0.0]
+        row |= {"moved_least": of_column.min(), "moved_most": of_column.max()}
         row["base_shear_slope"] = base_shear_slope(frame)
         row["base_shear_largest"] = uplift.base_shear[uplift.mass_ratio == gamma].max()
         row["depth_over_width"] = centre_height(frame, cap) / column.half_height
@@ -52,11 +58,16 @@ def travel(column, rotation):
 
 def findings(designers):
     gains = designers[designers.mass_ratio > 0.0]
+    # A block as large as the frame's equivalent column moves R̂/R times as far as the beam.
+    least, most = (gains[name] * gains.size_ratio for name in ("moved_least", "moved_most"))
     return {
         "scale_is_no_bound": truth(
             (gains.gain_most > gains.velocity_scale).any()
             and (gains.gain_least < gains.velocity_scale).any()
-        )
+        ),
+        "larger_block_moves_no_farther": truth(
+            (most <= 1.0).all(), least=least.min(), most=most.max()
+        ),
     }
 
 

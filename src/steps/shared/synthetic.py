@@ -14,7 +14,8 @@ Sources
 [3] G. P. Mavroeidis and A. S. Papageorgiou (2003). A mathematical representation of near-fault
     ground motions. Bull. Seismol. Soc. Am. 93(3), 1099–1131: the pulse that [1] modifies.
 [4] NHERI-SimCenter/smelt on GitHub, commit 3c5ce76: src/dabaghi_der_kiureghian.cc and its header.
-[5] J. Guo, github.com/Junjun1guo (2 October 2022): the Python class NearFaultMotionSim.
+[5] J. Guo, Junjun1guo/SAPStructure on GitHub, commit 0e55c1e: nearFaultGroundMotionSimulation.py in
+    auxiliaryModules/nearFaultGroundMotionSimulation_twoComponents.
 
 We did not have the papers and cite [1] to [3] from memory. Every number of the model comes from two
 public implementations that cite [1] and [2]: [4] and [5]. They have the same digits, here rounded
