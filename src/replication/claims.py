@@ -2,7 +2,6 @@
 
 import json
 import re
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -131,11 +130,12 @@ def judged(claim: Claim, findings: Mapping[str, Mapping[str, Any]]) -> dict[str,
     row = claim.model_dump() | {
         "verdict": verdict,
         "differs": differs,
+        "expected_differs": claim.differs,
         "computed": None,
         "shown": "",
     }
     if finding is not None:
-        row |= {"expected_differs": claim.differs, "condition": finding.get("condition", "")}
+        row["condition"] = finding.get("condition", "")
         row["computed"] = finding.get("value", finding.get("holds"))
         if "value" in finding:
             number = decimals(finding["value"], finding["error"], claim.printed, claim.tolerance)
@@ -150,19 +150,15 @@ def read_findings(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
 
 def counts(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     """Return a line for each list of claims: how many have each verdict."""
-    from replication.verdicts import VERDICTS
+    from replication.verdicts import counted
 
     lists: dict[str, list] = {}
     for row in rows:
         lists.setdefault(row["part"], []).append(row)
-    lines = []
-    for part, members in lists.items():
-        count = Counter(row["verdict"] for row in members)
-        line = ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict])
-        differ = sum(bool(row["differs"]) for row in members)
-        line += f"; our copy of the paper differs in {differ}" if differ else ""
-        lines.append(f"{TITLES.get(part, 'claims of study ' + part)}: {line}")
-    return lines
+    return [
+        f"{TITLES.get(part, 'claims of study ' + part)}: {counted(members)}"
+        for part, members in lists.items()
+    ]
 
 
 def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:
@@ -172,7 +168,7 @@ def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:
         f"{_verdict(row, 'expected', 'expected_differs')} (computed: "
         f"{row['shown'] or row['computed']}): set `expected`, or look for the cause"
         for row in rows
-        if row["verdict"] != row["expected"] or row["differs"] != row.get("expected_differs", "")
+        if row["verdict"] != row["expected"] or row["differs"] != row["expected_differs"]
     ]
 
 

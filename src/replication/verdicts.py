@@ -1,7 +1,8 @@
 """Compute the verdict on a claim from its finding. Nobody confirms a claim by hand."""
 
 import math
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from typing import Any, Literal, get_args
 
@@ -26,7 +27,8 @@ def verdict_on(claim: Claim, finding: Mapping[str, Any] | None) -> tuple[str, st
     A printed number is confirmed when the computed value agrees within the claim's tolerance, and a
     statement when it holds. A statement that holds on a stated condition alone is qualified. If the
     form in our copy fails, and what the premises of the paper mean holds, the meaning is judged and
-    the discrepancy named. A statement that only a measurement could confirm is at most supported.
+    the discrepancy named. A statement that only a measurement could confirm is at most supported. A
+    claim that is not tested keeps the discrepancy that it names.
 
     Raises
     ------
@@ -37,7 +39,7 @@ def verdict_on(claim: Claim, finding: Mapping[str, Any] | None) -> tuple[str, st
     if claim.expected in ("by definition", "not tested"):
         if finding is not None:
             raise ValueError(f"claim {claim.id} is {claim.expected}; expected no finding for it")
-        return claim.expected, ""
+        return claim.expected, claim.differs
     if finding is None:
         raise ValueError(f"claim {claim.id} has no finding; expected one, or 'not tested'")
     if claim.tolerance is not None:
@@ -72,6 +74,18 @@ def _numbers_agree(claim: Claim, finding: Mapping, tolerance: float) -> tuple[bo
         return value is not None and bool(abs(value - claim.printed) <= tolerance)
 
     return agrees(finding["value"]), agrees(finding.get("meant_value"))
+
+
+def counted(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Return how many claims have each verdict, and how many of them in a mended form."""
+    count = Counter(row["verdict"] for row in rows)
+    mended = sum(row["verdict"] == "confirmed" and bool(row["differs"]) for row in rows)
+    return ", ".join(
+        f"{count[verdict]} {verdict}"
+        + (f" ({mended} in a mended form)" if verdict == "confirmed" and mended else "")
+        for verdict in VERDICTS
+        if count[verdict]
+    )
 
 
 def print_rounding(printed: float) -> float:

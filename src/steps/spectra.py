@@ -371,7 +371,7 @@ def findings(
         ),
         "heavier_is_more_stable": ranking(whole, pairs),
         "heavier_or_larger_is_more_stable": ranking(whole, [*pairs, *larger]),
-        "heavier_survives_every_pulse": truth(not whole.bands(pairs)),
+        "only_the_heavier_overturns": truth({band[1:3] for band in whole.bands(pairs)} == {*pairs}),
         "frame_is_more_stable_than_its_column": ranking(
             whole, [pair for pair in pairs if pair[0][1] == COLUMN]
         ),
@@ -381,6 +381,10 @@ def findings(
         "prevents_more_than_it_causes": truth((frame.prevented > frame.caused).all()),
         "prevented": value(*prevented),
         "caused": value(*caused),
+        "prevented_over_caused": value(
+            ratio := prevented[0] / caused[0],
+            ratio * sum(error / share for share, error in (prevented, caused)),
+        ),
     }
     for change in (SIZE, RESTITUTION):
         for name in ("prevented", "caused"):

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, grid, run, truth, value
+from replication.verdicts import print_rounding
 from topheavy import Column, Pulse, RockingFrame, simulate
 from topheavy.bodies.structures import STANDARD_GRAVITY
 from topheavy.second import reference
@@ -167,7 +168,9 @@ def compute(settings, structures, solver):
     }
 
 
-def findings(trilith_numbers, trilith_starts, settings, structures):
+def findings(
+    trilith_numbers, trilith_thresholds, trilith_starts, trilith_map, settings, structures
+):
     column, printed = structures["trilith"], settings["printed"]
     results = {
         row.quantity: value(row.value, DIGITS * row.value, row.unit)
@@ -182,13 +185,22 @@ def findings(trilith_numbers, trilith_starts, settings, structures):
         np.allclose(2.0 * np.array(halves), measures, rtol=1e-12)
         and np.allclose([column["half_height"], column["half_width"]], halves, rtol=1e-12)
     )
-    cap, columns = printed["masses_meant"]
-    results["mass_ratio"] |= {"meant_value": cap / columns, "kind": "number"}
+    # γ from the printed p̂, within its rounding, and the computed p: (p̂/p)² = (1 + 2γ)/(1 + 3γ)
+    p_hat, p = printed["frame_frequency_parameter"], results["frequency_parameter"]["value"]
+    ends = p_hat + print_rounding(p_hat) * np.array([1.0, -1.0])
+    least, most = (1.0 - (ends / p) ** 2) / (3.0 * (ends / p) ** 2 - 2.0)
+    middle, half = (least + most) / 2.0, (most - least) / 2.0
+    results["mass_ratio_by_p_hat"] = value(middle, half, least=least, most=most)
 
     rest, abrupt = trilith_starts.iloc[0], trilith_starts.iloc[-1]
     low = trilith_starts.share_of_speed[trilith_starts.outcome == "rests"].max()
     high = trilith_starts.share_of_speed[trilith_starts.outcome == "rocking"].min()
     rests = rest.outcome == "no uplift" and rest.peak_over_alpha == 0.0
+    amplitude = trilith_thresholds.set_index("quantity").loc["amplitude"]
+    uplifted = trilith_map.outcome[trilith_map.outcome != "no uplift"]
+    overshoot = amplitude.to_lift / amplitude.tested - 1.0
+    results["overshoot_to_uplift"] = value(overshoot, ASIDE)
+    results["share_that_rocks_on"] = value((uplifted == "rocking").mean(), 0.0)
     results["no_pure_rocking"] = truth(rests)
     results["steady_rotation_over_alpha"] = value(abrupt.late_peak_over_alpha, AGREE)
     if low < high:  # slower starts come to rest, and faster ones keep rocking

@@ -1,13 +1,12 @@
 """List every claim with its verdict, and links to its script, tables and figures."""
 
 import json
-from collections import Counter
 from pathlib import Path
 from typing import Any
 
 from replication.config import read_yaml
 from replication.step import log_to, publish
-from replication.verdicts import VERDICTS
+from replication.verdicts import counted
 
 HEAD = """# Claims and verdicts
 
@@ -24,7 +23,8 @@ paragraph below the table. The verdicts:
 
 We worked from a transcription of the paper. *Our copy differs* where a sign, letter, bracket,
 radical or number in it contradicts the paper's own premises. There we judge the evident meaning.
-The last list has these places, to be compared with the print; no verdict counts them.
+The last list has these places, to be compared with the print. A claim that is confirmed there holds
+in a mended form, as the counts say.
 """
 TITLES = {"paper": "The paper's claims", "ours": "Claims of our own"}
 
@@ -61,11 +61,9 @@ def page(rows: list[dict[str, Any]], captions: dict[str, dict], rules: dict[str,
     text = [HEAD]
     for part in dict.fromkeys(row["part"] for row in rows):
         own = [row for row in rows if row["part"] == part]
-        count = Counter(row["verdict"] for row in own)
         text += [
             f"## {TITLES.get(part, 'Study ' + part)}\n",
-            ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict])
-            + ".\n",
+            counted(own) + ".\n",
             "| claim | verdict | script and figures |",
             "|---|---|---|",
             *(line(row, captions, rules) for row in own),

@@ -198,3 +198,15 @@ def test_a_gap_lets_the_trilith_rock_where_whole_contacts_do_not():
 
 def test_repeats_are_the_fewest_whose_majority_is_right():
     assert [test_plan.repeats(right, 0.05) for right in (0.96, 0.9, 0.8)] == [1, 3, 7]
+
+
+def test_column_survives_the_pulse_from_the_stated_reduction_on():
+    settings = CONFIG["test_plan"] | {"reductions": [], "scatters": [0.02]}
+    plan = test_plan.compute(settings).iloc[0]
+    column = th.Column(**settings["column"])
+    omega = settings["frequency_ratio"] * column.frequency_parameter
+    pulse = th.Pulse(settings["shape"], plan.pulse, omega)
+    least = plan.survived_if_lower_by
+    for reduction, overturned in ((least - 0.01, True), (least, False)):
+        block = column.block(column.restitution * (1.0 - reduction))
+        assert th.judge(block, pulse).overturned == overturned

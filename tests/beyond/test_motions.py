@@ -107,7 +107,37 @@ def test_a_block_with_lower_restitution_has_the_stated_share():
     blocks = sweep.restitution_question(SETTINGS, EVEN, COLUMN).blocks
     own, of_frame = COLUMN.restitution, RockingFrame(COLUMN, 1.0).restitution
     expected = [own, 0.9 * own, 0.8 * own, of_frame, 0.95 * of_frame, 0.9 * of_frame]
-    assert [block.restitution for block in blocks] == pytest.approx(expected)
+    assert [block.restitution for block in blocks[:-2]] == pytest.approx(expected)
+    assert own < blocks[-2].restitution < 1.0
+    assert of_frame < blocks[-1].restitution < blocks[-2].restitution
+
+
+@pytest.mark.parametrize("gamma", [0.0, 1.0, 4.0])
+@pytest.mark.parametrize("contact", [0.0, 0.4, 1.0])
+def test_restitution_within_contacts_balances_momentum(gamma, contact):
+    """Column of mass 1 rocks about its left, then its right corner; unknown: ω₂, two impulses."""
+    b, h = COLUMN.half_width, COLUMN.half_height
+    base, top = np.array([contact * b, 0.0]), np.array([-contact * b, 2.0 * h])
+    middle, inertia = np.array([0.0, h]), (b**2 + h**2) / 3.0
+
+    def turned(point, pivot):  # velocity of a point for ω = 1
+        return np.array([-(point - pivot)[1], (point - pivot)[0]])
+
+    left, right = np.array([-b, 0.0]), np.array([b, 0.0])
+    cap_before, cap_after = turned(np.array([b, 2 * h]), left), turned(np.array([-b, 2 * h]), right)
+    # columns: ω₂, impulse of the ground (x, y), impulse of the cap beam on the column (x, y)
+    matrix, known = np.zeros((5, 5)), np.zeros(5)
+    matrix[:2, 0], matrix[:2, 1:3], matrix[:2, 3:] = turned(middle, right), -np.eye(2), -np.eye(2)
+    known[:2] = turned(middle, left)
+    matrix[2:4, 0], matrix[2:4, 3:], known[2:4] = gamma * cap_after, np.eye(2), gamma * cap_before
+    arms = base - middle, top - middle
+    matrix[4] = [inertia, *(sign * arm for at in arms for sign, arm in ((1, at[1]), (-1, at[0])))]
+    known[4] = inertia
+    frame = RockingFrame(COLUMN, gamma)
+    ratio = np.linalg.solve(matrix, known)[0]
+    assert sweep.restitution_within(frame, contact) == pytest.approx(ratio)
+    if contact == 1.0:
+        assert ratio == pytest.approx(frame.restitution)
 
 
 def test_numbers_of_a_row_are_those_of_its_outcomes():
@@ -163,6 +193,22 @@ def test_tables_are_of_every_model_and_pair_of_frames(shards, monkeypatch):
     assert pairs == [*combinations(frames, 2)] * len(SETTINGS["structures"])
 
 
+def test_gains_are_by_structure_and_may_rise_with_the_height():
+    gains = pd.DataFrame(
+        [
+            (model, name, 1.0, g, g - 0.05, g + 0.05)
+            for model, *by_name in (("one", 0.1, 0.2, 0.3), ("two", 0.1, 0.3, 0.2))
+            for name, g in zip(("trilith", "temple", "tall"), by_name, strict=True)
+        ],
+        columns=["model", "structure", "mass_ratio", "gain", "gain_low", "gain_high"],
+    )
+    tables = {name: pd.DataFrame([row]) for name, row in TABLES.items()} | {"gains": gains}
+    found = motions.findings(*tables.values(), SETTINGS, CONFIG["structures"])
+    assert found["gain_rises_with_height"] == {"value": 1, "error": 0, "unit": "", "models": 2}
+    ends = [found["gain_tall"][name] for name in ("least", "most", "low", "high")]
+    assert ends == pytest.approx([0.2, 0.3, 0.15, 0.35])
+
+
 def test_an_overturned_structure_counts_as_above_the_median():
     peaks = np.full((3, 6, 1), 0.2)
     peaks[:2, 0] = math.inf
@@ -178,7 +224,7 @@ def test_an_overturned_structure_counts_as_above_the_median():
 TABLES = {
     "motions": {"column": 0.2, "fixed": 0.5, "frame": 0.1, "only_frame": 3}
     | {"harm_low": 0.1, "benefit_low": 0.05},
-    "gains": {"gain_low": 0.1, "gain": 0.2, "mass_ratio": 1.0},
+    "gains": {"model": "one", "gain_low": 0.1, "gain": 0.2, "gain_high": 0.3, "mass_ratio": 1.0},
     "pairs": {"ratio": 0.4, "ratio_high": 0.9},
     "sensitivity": {"change": 1e-6, "changed": 0.05},
 }
@@ -190,15 +236,17 @@ TABLES = {
         ("motions", "only_frame", 1, set()),
         ("motions", "benefit_low", -0.01, {"order"}),
         ("motions", "harm_low", 0.0, {"order"}),
-        ("gains", "gain_low", -0.1, {"gain"}),
+        ("gains", "gain_low", -0.1, {"gain", "gain_temple"}),
         ("motions", "only_frame", 0, {"some_only_frame"}),
         ("pairs", "ratio_high", 1.0, {"probability_is_lower"}),
     ],
 )
 def test_one_row_is_enough_to_refute(table, column, number, false):
     tables = {name: pd.DataFrame([row] * 2) for name, row in TABLES.items()}
+    tables["gains"]["structure"] = ["trilith", "temple"]
     tables[table].loc[1, column] = number
-    found = motions.findings(*tables.values(), SETTINGS)
+    settings = SETTINGS | {"structures": ["temple", "trilith"]}
+    found = motions.findings(*tables.values(), settings, CONFIG["structures"])
     assert {name for name, one in found.items() if one.get("holds") is False} == false
     assert found["outcomes_that_change"]["value"] == 0.05
     assert found["gain"]["least"] == found["gain"]["most"] == 0.2
@@ -237,12 +285,21 @@ def test_end_is_that_of_the_outcomes(monkeypatch):
     ],
 )
 def test_one_velocity_or_change_is_enough_to_refute(end, low, false):
-    ends = pd.DataFrame({"end": end, "end_low": [0.04, 0.05]})
+    ends = pd.DataFrame({"end": end, "end_low": [0.04, 0.05], "end_high": [0.09, 0.1]})
+    lowered = ["both", "both", "column alone", break_even.WITHIN]
     benefits = pd.DataFrame(
-        {"lowered": ["both", "both", "column alone"], "benefit_low": [*low, -1.0]}
+        {"set": "near-fault", "lowered": lowered, "reduction": [0.0, 0.05, 0.05, 0.0]}
+        | {"benefit": [0.1, 0.06, 0.02, 0.15], "benefit_low": [*low, -0.01, 0.1]}
+        | {"benefit_high": [0.14, 0.1, 0.05, 0.2]}
     )
-    found = break_even.findings(ends, benefits)
-    assert {name for name, one in found.items() if not one["holds"]} == false
+    found = break_even.findings(ends, benefits, EVEN)
+    assert {name for name, one in found.items() if one.get("holds") is False} == false
+    limits = found["benefit_ends"]
+    assert (limits["low"], limits["high"]) == (0.04, 0.1)
+    names = ("benefit", "remaining", "remaining_of_both", "within")
+    numbers = [found[f"{name}_near_fault"] for name in names]
+    assert [one["value"] for one in numbers] == [0.1, 0.02, 0.06, 0.15]
+    assert (numbers[1]["low"], numbers[1]["high"]) == (-0.01, 0.05)
 
 
 def test_counts_are_of_outcomes_that_are_known(monkeypatch):

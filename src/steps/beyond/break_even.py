@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import isotonic_regression
 
-from replication.step import check, run, truth
+from replication.step import check, run, truth, value
 from steps.shared.ensemble import Ensemble
 from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
 from steps.shared.sweep import (
@@ -25,6 +25,7 @@ from steps.shared.sweep import (
 )
 from topheavy import Column
 
+WITHIN = "impulses within the contacts"
 FINE = 0.5  # of the interval of an end: how far twice the step of the reductions may move it
 
 
@@ -85,19 +86,28 @@ def bounds(ends, confidence):
 
 
 def compare(name, settings, ensemble, means):
-    """Return the benefit at the stated velocity, if √r of both or of the column alone is lower."""
+    """Return the benefit at the stated velocity, if √r of both or of the column alone is lower.
+
+    The last row is that of impulses within the contacts.
+    """
     shares, rows = list(reductions(settings)), []
     first = len(shares)
     for number, share in enumerate([0.0, *settings["lowered"]]):
         column = shares.index(share)
         for way, frame in {"both": first + number, "column alone": first}.items():
             if share or way == "both":
-                rows.append(
-                    {"set": name, "lowered": way, "reduction": share}
-                    | {"column": means[0, column], "frame": means[0, frame]}
-                    | ensemble.bounds("benefit", means[:, column] - means[:, frame])
-                )
+                rows.append(row(name, way, share, ensemble, means[:, column], means[:, frame]))
+    within = means.shape[1] - 2
+    rows.append(row(name, WITHIN, 0.0, ensemble, means[:, within], means[:, within + 1]))
     return rows
+
+
+def row(name, way, share, ensemble, column, frame):
+    return {"set": name, "lowered": way, "reduction": share} | {
+        "column": column[0],
+        "frame": frame[0],
+        **ensemble.bounds("benefit", column - frame),
+    }
 
 
 def sampled(samples, settings, motions, column):
@@ -114,17 +124,35 @@ def sampled(samples, settings, motions, column):
         yield block, record, None, factor, samples[name][at, place, level]
 
 
-def findings(break_even, break_even_benefit):
-    ends, both = break_even, break_even_benefit[break_even_benefit.lowered == "both"]
+def findings(break_even, break_even_benefit, settings):
+    """Return where the benefit ends, and its size as √r of Eq. (25) and as measured say."""
+    ends, benefits = break_even, break_even_benefit
+    both = benefits[benefits.lowered == "both"]
     known = ends[np.isfinite(ends.end)]
-    return {
+    found = {
         "benefit_ends": truth(
             len(known) == len(ends),
             least=known.end.min(),
             most=known.end.max(),
+            low=ends.end_low.min(),
+            high=ends.end_high.max(),
         ),
         "frame_is_safer": truth((both.benefit_low > 0.0).all()),
     }
+    measured = settings["measured"][-1]
+    for name, way, share in (
+        ("benefit", "both", 0.0),
+        ("remaining", "column alone", measured),
+        ("remaining_of_both", "both", measured),
+        ("within", WITHIN, 0.0),
+    ):
+        rows = benefits[(benefits.lowered == way) & (benefits.reduction == share)]
+        for one in rows.itertuples():
+            low, high = one.benefit_low, one.benefit_high
+            found[f"{name}_{one.set.replace('-', '_')}"] = value(
+                one.benefit, (high - low) / 2.0, low=low, high=high
+            )
+    return found
 
 
 if __name__ == "__main__":

@@ -92,9 +92,9 @@ def sensitivity(model, results, settings):
 def gains(model, structure, fell, settings, column):
     """Return for each frame its gain, and how often only it overturns and not the column.
 
-    The gain is that of the velocity that overturns half of the motions, by a fitted curve. `ratio`
-    is the number of cases, motions at one velocity, in which only the frame overturns, over the
-    number in which only the column does.
+    The gain is that of the velocity at which half of the motions overturn a structure, by a fitted
+    curve. `ratio` is the number of cases, motions at one velocity, in which only the frame
+    overturns, over the number in which only the column does.
     """
     ensemble = Ensemble(fell, None, **settings["bootstrap"])
     velocities = frames(settings, column).velocities
@@ -185,16 +185,30 @@ def sampled(shards, settings, column):
         yield block, record, up, factor, results[at, place] == 1
 
 
-def findings(motions, motions_gains, motions_pairs, motions_sensitivity, settings):
+def findings(motions, motions_gains, motions_pairs, motions_sensitivity, settings, structures):
+    """Return orders and gains; `gain_trilith` and so on are those of γ as stated, by structure."""
     gains, changed = motions_gains, motions_sensitivity
-    equal = gains.gain[gains.mass_ratio == settings["mass_ratio"]]
+    equal = gains[gains.mass_ratio == settings["mass_ratio"]]
     least = changed[changed.change == changed.change.min()]
+    by_height = sorted(settings["structures"], key=lambda name: structures[name]["half_height"])
+    rising = equal.pivot(index="model", columns="structure", values="gain")[by_height]
+    rises = (np.diff(rising, axis=1) > 0.0).all(axis=1)
     return {
+        f"gain_{name}": truth(
+            (some.gain_low > 0.0).all(),
+            least=some.gain.min(),
+            most=some.gain.max(),
+            low=some.gain_low.min(),
+            high=some.gain_high.max(),
+        )
+        for name, some in equal.groupby("structure")
+    } | {
         "order": truth(
             ((motions.harm_low > 0.0) & (motions.benefit_low > 0.0)).all(),
             **{name: [motions[name].min(), motions[name].max()] for name in NAMES},
         ),
-        "gain": truth((gains.gain_low > 0.0).all(), least=equal.min(), most=equal.max()),
+        "gain": truth((gains.gain_low > 0.0).all(), least=equal.gain.min(), most=equal.gain.max()),
+        "gain_rises_with_height": value(rises.sum(), 0.0, models=len(rises)),
         "some_only_frame": truth((motions.only_frame > 0).all()),
         "probability_is_lower": truth(
             (motions_pairs.ratio_high < 1.0).all(),

@@ -1,4 +1,4 @@
-"""A test that could refute us: a pulse that overturns the column and not the frame, and repeats."""
+"""A test of one inequality: a pulse that overturns the column and not the frame, and repeats."""
 
 import math
 from itertools import count
@@ -18,7 +18,8 @@ def compute(settings):
     """Return for each pair of minima the pulse between them, and the repeats that tell them apart.
 
     The second of a pair has the higher minimum: the frame, or the column with a lower √r. The
-    minimum scatters from test to test, by one standard deviation of its logarithm.
+    minimum scatters from test to test, by one standard deviation of its logarithm. With a √r that
+    is lower by `survived_if_lower_by` the column survives the pulse.
     """
     column = Column(**settings["column"])
     omega = settings["frequency_ratio"] * column.frequency_parameter
@@ -33,6 +34,7 @@ def compute(settings):
         pulse = unit.scaled(math.sqrt(low * high))
         fell = [solve(block, pulse).overturned for block in (alone, other) for solve in SOLVERS]
         check(fell == [True, True, False, False], f"{name}, {pulse}: overturned {fell}")
+        survived = surviving_reduction(alone, pulse)
         for scatter in settings["scatters"]:
             right = float(ndtr(0.5 * math.log(high / low) / scatter))
             rows.append(
@@ -42,6 +44,7 @@ def compute(settings):
                     "minimum_of_other": high,
                     "pulse": pulse.amplitude,
                     "period": 2.0 * math.pi / omega,
+                    "survived_if_lower_by": survived,
                     "scatter": scatter,
                     "repeats": repeats(right, settings["risk"]),
                 }
@@ -57,6 +60,18 @@ def minimum(block, unit):
     return first.lower[1]
 
 
+def surviving_reduction(block, pulse):
+    """Return the lowest reduction of √r, in steps of 1 %, with which a block survives a pulse."""
+
+    def survives(reduction):
+        lower = block.with_restitution(block.restitution * (1.0 - reduction))
+        fell = {solve(lower, pulse).overturned for solve in SOLVERS}
+        check(len(fell) == 1, f"the solvers disagree on √r lower by {reduction:g} under {pulse}")
+        return fell == {False}
+
+    return next(number / 100.0 for number in count(1) if survives(number / 100.0))
+
+
 def repeats(right, risk):
     """Return the least odd number of repeats whose majority is wrong with at most a risk."""
     return next(n for n in count(1, 2) if bdtr(n // 2, n, right) <= risk)
@@ -68,6 +83,7 @@ def findings(test_plan):
     first, repeats = rows.iloc[0], rows.repeats.to_list()
     error = 1e-6 * first.pulse  # far above the width of the brackets of minima
     more = {"period": first.period, "scatter": first.scatter, "repeats": repeats}
+    more |= {"survived_if_lower_by": first.survived_if_lower_by}
     return {"pulse": value(first.pulse, error, "g", **more)}
 
 
