@@ -46,8 +46,8 @@ def capacities(spec, column, records, tightened):
     """Yield the capacities of the column (γ = 0) and its frames under each record, in g, by window.
 
     A capacity is a threshold on a count of outcomes, which one outcome can move far. It is computed
-    at the tightened tolerance, again at a tenth of it, and under the record times 1 + NUDGE; it is
-    decided if these are the same, and `least` and `most` are the ends of these.
+    at the tightened tolerance, again at a tenth of it, and under the record times 1 + NUDGE; unless
+    these are the same, it is not decided, and NaN.
     """
     ratios = (1.0 + spec["step"]) ** np.arange(math.log(spec["highest"]) / math.log1p(spec["step"]))
     for record, gamma in product(records, spec["mass_ratios"]):
@@ -66,8 +66,7 @@ def capacities(spec, column, records, tightened):
             check(np.isfinite(peaks).all(), f"{record.name}: no capacity: raise capacity.highest")
             yield (
                 {"record": record.name, "mass_ratio": gamma, "window": window}
-                | {"capacity": peaks[0], "least": min(peaks), "most": max(peaks)}
-                | {"decided": len({*peaks}) == 1}
+                | {"capacity": peaks[0] if len({*peaks}) == 1 else math.nan}
             )
 
 
@@ -85,7 +84,7 @@ def overturned(frame, record, factors, tightened):
 def findings(records, records_capacity, settings):
     at = ["window", "record"]
     by_mass = records_capacity.pivot(index=at, columns="mass_ratio", values="capacity")
-    gains = by_mass.div(by_mass[0.0], axis=0) - 1.0
+    gains, undecided = by_mass.div(by_mass[0.0], axis=0) - 1.0, by_mass.isna()
     middles, stated = gains.groupby("window").median(), settings["capacity"]["windows"][0]
     counts = records.groupby(["lighter", "heavier"])[["only_lighter", "only_heavier"]].sum()
     return (
@@ -98,12 +97,10 @@ def findings(records, records_capacity, settings):
             ),
             "fewer_reversals": truth((records.only_heavier < records.only_lighter).all()),
             "capacities_are_decided": truth(
-                records_capacity.decided.all(),
-                rows=len(records_capacity),
-                undecided=(~records_capacity.decided).sum(),
-                undecided_at_the_stated_window=(
-                    ~records_capacity.decided[records_capacity.window == stated]
-                ).sum(),
+                not undecided.any(axis=None),
+                rows=undecided.size,
+                undecided=undecided.to_numpy().sum(),
+                undecided_at_the_stated_window=undecided.loc[stated].to_numpy().sum(),
             ),
         }
         | {
@@ -112,7 +109,7 @@ def findings(records, records_capacity, settings):
         }
         | {
             f"gain_{gamma:g}": truth(
-                (gains[gamma] > 0.0).all(),
+                (gains[gamma].dropna() > 0.0).all(),
                 median=middles[gamma][stated],
                 lowest_median=middles[gamma].min(),
                 highest_median=middles[gamma].max(),
