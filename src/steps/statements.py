@@ -12,7 +12,6 @@ from topheavy import (
     Pulse,
     RockingBlock,
     RockingFrame,
-    contact_forces,
     simulate,
 )
 from topheavy.bodies.free_rocking import quarter_period
@@ -21,6 +20,7 @@ from topheavy.bodies.massless_columns import simplified
 from topheavy.derivation.motion import cap_motion
 from topheavy.derivation.notation import NEGATIVE, POSITIVE, acceleration, read, vanishes
 from topheavy.derivation.printed import EQUATIONS, rectangular_column
+from topheavy.forces.contact import forces_at
 
 AGREE = 1e-6  # of α, of √r and of the weight: what two integrations may differ by
 CLOSE = 1e-8  # of a number that two formulas give
@@ -67,7 +67,7 @@ def three_bodies(frame, cap, pulse, duration, samples):
     ratios = bodies.velocity_ratios[nearest]
 
     ground, weight = pulse.excitation(times), 2.0 * (1.0 + frame.mass_ratio) * STANDARD_GRAVITY
-    closed = contact_forces(
+    closed = forces_at(
         frame, Cap(cap["span"], cap["depth"] / 2.0), block.rotation, block.velocity, ground
     )
     closed = np.stack([np.stack([c.horizontal, c.vertical], -1) for c in closed.contacts], -2)

@@ -46,10 +46,10 @@ def test_required_friction_is_that_of_three_bodies_and_of_uplift_at_least(gamma)
 
 
 def test_three_bodies_of_another_bay_disagree(monkeypatch):
-    forces = friction.contact_forces
+    forces = friction.forces_at
     monkeypatch.setattr(
         friction,
-        "contact_forces",
+        "forces_at",
         lambda frame, cap, *motion: forces(frame, Cap(2.4, 0.5), *motion),
     )
     row = {"shape": "one-sine", "frequency_ratio": 4.0, "amplitude": 2.0}

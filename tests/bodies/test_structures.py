@@ -90,7 +90,9 @@ def test_frame_under_a_boundless_cap_reaches_the_massless_column_limit(alpha, ga
 
 def test_masses_give_the_mass_ratio_of_any_number_of_columns():
     assert RockingFrame.of_masses(WIDE, 265.0, 305.3) == RockingFrame(WIDE, 265.0 / 610.6)
-    assert RockingFrame.of_masses(WIDE, 6.0, 2.0, columns=6) == RockingFrame(WIDE, 0.5)
+    six = RockingFrame.of_masses(WIDE, 6.0, 2.0, columns=np.int64(6))
+    assert six == RockingFrame(WIDE, 0.5, 6)
+    assert six.block() == RockingFrame(WIDE, 0.5).block()
     assert RockingFrame.of_masses(WIDE, 0.0, 2.0).mass_ratio == 0.0
 
 

@@ -8,7 +8,6 @@ import pytest
 import sympy as sp
 
 from topheavy import STANDARD_GRAVITY, Cap, Column, RockingFrame
-from topheavy import contact_forces as forces_of
 from topheavy import impact_impulses as impulses_of
 from topheavy.derivation import consequences
 from topheavy.derivation.motion import (
@@ -41,6 +40,7 @@ from topheavy.derivation.notation import (
     velocity,
     vertical_acceleration,
 )
+from topheavy.forces.contact import forces_at as forces_of
 from topheavy.forces.frame import base_shear_slope
 
 

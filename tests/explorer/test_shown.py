@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from steps.explorer import blocks, motion
-from topheavy import Cap, Column, RockingFrame, contact_forces, simulate
+from topheavy import Cap, Column, RockingFrame, simulate
 from topheavy.bodies.kinematics import cap_displacement
-from topheavy.forces.contact import column_forces
+from topheavy.forces.contact import column_forces, forces_at
 
 WEAK = {"width": 1.0, "height": 6.0, "g": 1.0, "shape": "one-cosine", "a": 0.195, "T": 1.5}
 """All three structures rock, and survive."""
@@ -239,7 +239,7 @@ def required(block_number, response, ground):
     if block_number == 0:
         return np.max(column_forces(COLUMN, *given).friction_demand)
     frame, cap = RockingFrame(COLUMN, 1.0), Cap(5.0, 0.1 * COLUMN.half_height)
-    forces = contact_forces(frame, cap, *given)
+    forces = forces_at(frame, cap, *given)
     return np.max([np.max(each) for each in np.atleast_1d(forces.friction_demand)])
 
 

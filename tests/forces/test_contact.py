@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import topheavy as th
-from topheavy.bodies.kinematics import cap_acceleration
-from topheavy.forces.contact import column_forces
+from topheavy.bodies.kinematics import cap_acceleration, outlines
+from topheavy.forces.contact import column_forces, forces_at
 
 SLENDER = th.Column(2.0 * math.sin(0.25), 2.0 * math.cos(0.25))  # α = 0.25
 TRILITH = th.Column(0.11, 0.40)
@@ -22,8 +22,9 @@ FRAMES = [
 ]
 
 
-def of(mass_ratio, *motion, cap=CAP):
-    return th.contact_forces(th.RockingFrame(SLENDER, mass_ratio), cap, *motion)
+def of(mass_ratio, rotation, velocity, ground=0.0, *, cap=CAP):
+    frame = th.RockingFrame(SLENDER, mass_ratio)
+    return forces_at(frame, cap, rotation, velocity, ground)
 
 
 IDS = [f"α {frame.slenderness:.2f}, γ {frame.mass_ratio:g}" for frame in FRAMES]
@@ -93,7 +94,7 @@ def test_forces_move_and_turn_all_three_bodies_as_the_frame_rocks(frame, side, s
     ground = state[2]
     second = angular_acceleration(frame, theta, ground)
     mass, beam = masses(frame.mass_ratio)
-    forces = th.contact_forces(frame, CAP, theta, rate, ground)
+    forces = forces_at(frame, CAP, theta, rate, ground)
     bases = [vector(forces.base_left), vector(forces.base_right)]
     tops = [vector(forces.top_left), vector(forces.top_right)]
     at_centre, at_cap = accelerations(column, theta, rate, second, ground) / th.STANDARD_GRAVITY
@@ -120,7 +121,7 @@ def test_bases_carry_the_weight_and_the_inertia_of_the_whole_frame(frame):
     second = np.array(
         [angular_acceleration(frame, *pair) for pair in zip(theta, ground, strict=True)]
     )
-    forces = th.contact_forces(frame, CAP, theta, rate, ground)
+    forces = forces_at(frame, CAP, theta, rate, ground)
     cap = np.array(cap_acceleration(frame.column, theta, rate, second)) / th.STANDARD_GRAVITY
     mass, beam = masses(frame.mass_ratio)
     total = vector(forces.base_left) + vector(forces.base_right)
@@ -158,7 +159,7 @@ def test_resting_at_the_balance_point_needs_no_friction():
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_every_contact_needs_tan_alpha_when_the_ground_just_uplifts(frame, sign):
     threshold = frame.uplift_acceleration
-    forces = th.contact_forces(frame, CAP, 0.0, 0.0, sign * threshold)
+    forces = forces_at(frame, CAP, 0.0, 0.0, sign * threshold)
     for contact in forces.contacts:
         if frame.mass_ratio > 0.0 or contact in (forces.base_left, forces.base_right):
             assert contact.friction_demand == pytest.approx(threshold, rel=1e-12)
@@ -242,15 +243,15 @@ STOCKY, NARROW = th.Column(0.7, 0.4), th.Cap(1.4, 0.2)
         (lambda: th.Cap(span=0.0, half_depth=0.3), "span is 0 m; expected more than zero"),
         (lambda: th.Cap(span=3.0, half_depth=math.inf), "half_depth is inf; expected a finite"),
         (
-            lambda: th.contact_forces(th.RockingFrame(SQUARE, 1.0), NARROW, 0.1, 0.0),
+            lambda: forces_at(th.RockingFrame(SQUARE, 1.0), NARROW, 0.1, 0.0, 0.0),
             r"span is 1\.4 m; expected more than the width of a column, 1\.4 m",
         ),
         (
             lambda: th.impact_impulses(th.RockingFrame(th.Column(0.7, 2.0), 1.0), NARROW, 0.1),
             r"span is 1\.4 m",
         ),
-        (lambda: column_forces(SLENDER, "0.1", 0.1), "rotation: element 0 is '0.1'"),
-        (lambda: column_forces(SLENDER, 0.1, None), "velocity: element 0 is None"),
+        (lambda: column_forces(SLENDER, "0.1", 0.1, 0.0), "rotation: element 0 is '0.1'"),
+        (lambda: column_forces(SLENDER, 0.1, None, 0.0), "velocity: element 0 is None"),
         (lambda: column_forces(SLENDER, 0.1, 0.1, {}), "ground_acceleration: element 0 is {}"),
         (lambda: of(1.0, [-1.7, math.nan, 0.1], 0.0), "up to 1.7 rad; expected less than π/2"),
         (
@@ -261,4 +262,90 @@ STOCKY, NARROW = th.Column(0.7, 0.4), th.Cap(1.4, 0.2)
 )
 def test_bad_input_is_refused_by_name(call, says):
     with pytest.raises(ValueError, match=says):
+        call()
+
+
+PULSE = th.Pulse("one-sine", 0.36, period=1.2)
+RECORD = th.Record(0.05, 0.36 * np.sin(0.2 * np.arange(60)) * np.hanning(60), "wave")
+
+
+@pytest.mark.parametrize("motion", [PULSE, RECORD, None], ids=["pulse", "record", "free"])
+def test_forces_of_a_response_are_those_of_its_states(motion):
+    frame = th.RockingFrame(SLENDER, 2.0)
+    start = {} if motion is not None else {"rotation": 0.2}
+    response = th.simulate(frame, motion, **start, samples=200)
+    assert response.impacts.size > 1
+    forces = th.contact_forces(frame, CAP, response, motion)
+    ground = np.zeros(200) if motion is None else motion.excitation(response.time)
+    states = forces_at(frame, CAP, response.rotation, response.velocity, ground)
+    away = np.abs(response.time[:, None] - response.impacts).min(axis=1) > 1e-6
+    for name, contact in zip(forces.contact.values, states.contacts, strict=True):
+        at = forces.sel(contact=name, time=response.time[away])
+        assert at.horizontal.values == pytest.approx(
+            contact.horizontal[away], abs=1e-9, nan_ok=True
+        )
+        assert at.vertical.values == pytest.approx(contact.vertical[away], abs=1e-9, nan_ok=True)
+    # Both limits at each impact, and the samples of a record, are times of the forces.
+    for impact in response.impacts:
+        assert (np.abs(forces.time.values - impact) < 1e-7).sum() == 2
+    if motion is RECORD:
+        inside = motion.time[motion.time <= response.time[-1]]
+        assert np.isin(inside, forces.time.values).all()
+
+
+def test_largest_friction_is_met_although_the_response_has_few_samples():
+    frame = th.RockingFrame(SLENDER, 2.0)
+    few, many = (
+        th.contact_forces(frame, CAP, th.simulate(frame, RECORD, samples=samples), RECORD)
+        for samples in (3, 20_000)
+    )
+    needed = [float(forces.required_friction.max()) for forces in (few, many)]
+    assert needed[0] == pytest.approx(needed[1], rel=2e-3)
+
+
+def test_forces_end_where_the_frame_overturns():
+    frame = th.RockingFrame(SLENDER, 2.0)
+    strong = PULSE.scaled(4.0)
+    response = th.simulate(frame, strong)
+    assert response.overturned
+    forces = th.contact_forces(frame, CAP, response, strong)
+    ended = np.isnan(forces.vertical).all("contact").values
+    assert 0 < ended.sum() < ended.size
+
+
+def test_response_of_another_structure_or_motion_is_refused():
+    frame = th.RockingFrame(SLENDER, 2.0)
+    response = th.simulate(frame, RECORD)
+    vertical = RECORD.with_samples(0.3 * np.sin(0.7 * np.arange(60)))
+    shaken = th.simulate(frame, RECORD, vertical=vertical)
+    late = th.simulate(frame, RECORD, samples=[0.5, 1.0])
+    for call, says in [
+        (
+            lambda: th.contact_forces(th.RockingFrame(SLENDER, 1.0), CAP, response, RECORD),
+            "differs",
+        ),
+        (lambda: th.contact_forces(frame, CAP, response, RECORD.scaled(1.01)), "differs by up to"),
+        (lambda: th.contact_forces(frame, CAP, shaken, RECORD), "without a vertical component"),
+        (lambda: th.contact_forces(frame, CAP, late, RECORD), "begins at 0.5 s; expected t = 0"),
+        (lambda: th.contact_forces(SLENDER, CAP, response, RECORD), "expected a RockingFrame"),
+    ]:
+        with pytest.raises(ValueError, match=says):
+            call()
+
+
+THREE = th.RockingFrame.of_masses(SLENDER, cap_mass=6.0, column_mass=1.0, columns=3)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: forces_at(THREE, CAP, 0.1, 0.0, 0.0),
+        lambda: th.impact_impulses(THREE, CAP, 0.5),
+        lambda: th.contact_forces(THREE, CAP, th.simulate(THREE, PULSE), PULSE),
+        lambda: outlines(THREE, 0.1, 4.0, 0.3),
+    ],
+)
+def test_frame_of_three_columns_has_no_forces_and_no_picture(call):
+    assert "columns=3" in repr(THREE)
+    with pytest.raises(ValueError, match="frame has 3 columns; expected two"):
         call()

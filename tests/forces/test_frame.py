@@ -7,8 +7,9 @@ import pytest
 
 import topheavy as th
 from tests.cases import COLUMN, RECORDS
-from topheavy import STANDARD_GRAVITY, Cap, RockingFrame, contact_forces
+from topheavy import STANDARD_GRAVITY, Cap, RockingFrame
 from topheavy.bodies.kinematics import cap_acceleration
+from topheavy.forces.contact import forces_at
 from topheavy.forces.frame import (
     SECTIONS,
     base_shear_slope,
@@ -83,7 +84,7 @@ def test_bending_moment_is_that_of_all_below_the_section(ratio, state):
     weight = 0.0 if ratio == math.inf else 0.5 / (1.0 + ratio)
     second, side = angular(frame, theta, ground), math.copysign(1.0, theta)
     along, x, z, px, pz = particles(theta, rate, second, ground)
-    forces, inner = contact_forces(frame, CAP, *state), frame_forces(frame, CAP, *state)
+    forces, inner = forces_at(frame, CAP, *state), frame_forces(frame, CAP, *state)
     b, height = COLUMN.half_width, 2.0 * COLUMN.half_height
     for place, base_force in enumerate((forces.base_left, forces.base_right)):
         for section in (0.0, 1.0):  # Gauss points lie on either side of no other section

@@ -122,7 +122,7 @@ portal = MonolithicPortal(pier, 1.0, span=12.0)
 assert_type(lowest_overturning(vase, pulse, (0, 5), floor=0.5), LowestOverturning)
 assert_type(overturned_by([vase, portal, bent], pulse, [1.0, 2.0]), NDArray[np.bool_])
 
-assert_type(contact_forces(bent, cap, 0.01, 0.02, 0.1), ContactForces)
+assert_type(contact_forces(bent, cap, response, record), xarray.Dataset)
 assert_type(impact_impulses(bent, cap, 0.1), ContactForces)
 assert_type(column_forces(pier, times / 100.0, times), Reaction)
 assert_type(base_shear_slope(bent), float)

@@ -8,7 +8,8 @@ import pandas as pd
 from replication.step import check, geometric, grid, run, truth
 from steps.shared.histories import history
 from steps.shared.three_bodies import simulate_three_bodies
-from topheavy import Cap, Column, Pulse, RockingFrame, contact_forces, impact_impulses, simulate
+from topheavy import Cap, Column, Pulse, RockingFrame, impact_impulses, simulate
+from topheavy.forces.contact import forces_at
 
 AGREE = 1e-3  # of tan α: required friction by the closed form and by Newton's and Euler's equations
 
@@ -58,7 +59,7 @@ def required(frame, cap, shaking, settings):
     if whole.overturned:
         return None
     arcs = history(frame, shaking, settings["samples"], whole=whole)
-    forces = contact_forces(frame, cap, arcs.rotation, arcs.velocity, arcs.ground)
+    forces = forces_at(frame, cap, arcs.rotation, arcs.velocity, arcs.ground)
     friction, vertical = forces.friction_demand, [np.nanmin(forces.least_vertical)]
     largest, coarse = np.nanmax(friction), np.nanmax(friction[:, ::2])
     if arcs.impacts:
@@ -83,7 +84,7 @@ def compare(frame, cap, row, settings):
     times = np.linspace(0.0, shaking.duration, settings["check_samples"])
     motion = simulate(frame, shaking, samples=times)
     ground = shaking.excitation(times)
-    first = contact_forces(frame, cap, motion.rotation, motion.velocity, ground).friction_demand
+    first = forces_at(frame, cap, motion.rotation, motion.velocity, ground).friction_demand
     bodies = simulate_three_bodies(
         frame,
         shaking,

@@ -138,9 +138,12 @@ class FixedMassColumn(_OneBody):
 
     def __post_init__(self) -> None:
         checked_column(self.column)
-        checked_mass_ratio(self.mass_ratio)
-        checks.not_negative("cap_width", self.cap_width, "m")
-        checks.not_negative("cap_depth", self.cap_depth, "m")
+        checks.set_fields(
+            self,
+            mass_ratio=checked_mass_ratio(self.mass_ratio),
+            cap_width=checks.not_negative("cap_width", self.cap_width, "m"),
+            cap_depth=checks.not_negative("cap_depth", self.cap_depth, "m"),
+        )
 
     def _axis_and_cap_width(self) -> tuple[float, float]:
         return 0.0, self.cap_width
@@ -181,10 +184,13 @@ class MonolithicPortal(_OneBody):
 
     def __post_init__(self) -> None:
         checked_column(self.column)
-        checked_mass_ratio(self.mass_ratio)
-        checks.wider_than_column(self.span, 2.0 * self.column.half_width)
-        checks.not_negative("cap_depth", self.cap_depth, "m")
-        checks.not_negative("overhang", self.overhang, "m")
+        checks.set_fields(
+            self,
+            mass_ratio=checked_mass_ratio(self.mass_ratio),
+            span=checks.wider_than_column(self.span, 2.0 * self.column.half_width),
+            cap_depth=checks.not_negative("cap_depth", self.cap_depth, "m"),
+            overhang=checks.not_negative("overhang", self.overhang, "m"),
+        )
 
     def _axis_and_cap_width(self) -> tuple[float, float]:
         return self.span / 2.0, self.span + 2.0 * (self.column.half_width + self.overhang)

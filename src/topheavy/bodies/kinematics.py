@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
-from topheavy.bodies.structures import Column, RockingFrame, Structure
+from topheavy.bodies.structures import Column, RockingFrame, Structure, checked_two_columns
 from topheavy.checks import short
 
 Array = NDArray[np.float64]
@@ -84,7 +84,8 @@ def outlines(
     Raises
     ------
     ValueError
-        For another structure: it has no dimensions.
+        For another structure, which has no dimensions, and for a frame of more than two columns,
+        whose spans are not known.
     """
     if isinstance(structure, Column):
         return {"column": column_outline(structure, rotation)}
@@ -93,6 +94,8 @@ def outlines(
             f"structure is {short(structure)}; expected a Column, FixedMassColumn, RockingFrame or "
             "MonolithicPortal, which have dimensions"
         )
+    if isinstance(structure, RockingFrame):
+        checked_two_columns(structure)
     column, top = structure.column, 2.0 * structure.column.half_height
     beam = _rectangle(cap_width, top, cap_depth)
     if isinstance(structure, FixedMassColumn):

@@ -51,9 +51,13 @@ class RockingBlock:
     linearised: bool = False
 
     def __post_init__(self) -> None:
-        checks.positive("frequency_parameter", self.frequency_parameter, "rad/s")
-        checks.within_quarter_turn("slenderness", self.slenderness)
-        checks.fraction("restitution", self.restitution)
+        p = self.frequency_parameter
+        checks.set_fields(
+            self,
+            frequency_parameter=checks.positive("frequency_parameter", p, "rad/s"),
+            slenderness=checks.within_quarter_turn("slenderness", self.slenderness),
+            restitution=checks.fraction("restitution", self.restitution),
+        )
 
     @property
     def uplift_acceleration(self) -> float:
@@ -92,8 +96,11 @@ class Column:
     half_height: float
 
     def __post_init__(self) -> None:
-        checks.positive("half_width", self.half_width, "m")
-        checks.positive("half_height", self.half_height, "m")
+        checks.set_fields(
+            self,
+            half_width=checks.positive("half_width", self.half_width, "m"),
+            half_height=checks.positive("half_height", self.half_height, "m"),
+        )
 
     def __repr__(self) -> str:
         """Return both fields and, as these are easily mistaken for the whole, the dimensions."""
@@ -151,16 +158,19 @@ class Column:
 
 @dataclass(frozen=True)
 class RockingFrame:
-    """Two equal free-standing columns under a freely supported rigid cap beam.
+    """Two or more equal free-standing columns under a freely supported rigid cap beam.
 
     Parameters
     ----------
     column : Column
-        Either of the two.
+        Each of them.
     mass_ratio : float
-        γ = m_b / 2 m_c, the mass of the cap beam over that of both columns; from 0 (the solitary
-        column) to `math.inf` (the limit of Allen et al. 1986: columns without mass). A negative one
-        raises ValueError.
+        γ = m_b / (N m_c), the mass of the cap beam over that of its columns (of two, m_b / 2 m_c);
+        from 0 (the solitary column) to `math.inf` (the limit of Allen et al. 1986: columns without
+        mass). A negative one raises ValueError.
+    columns : int
+        N, 2 or more: a cap beam on one column would tilt. The motion depends on N by γ alone, the
+        forces at the contacts are computed for two.
 
     Examples
     --------
@@ -170,10 +180,12 @@ class RockingFrame:
 
     column: Column
     mass_ratio: float
+    columns: int = 2
 
     def __post_init__(self) -> None:
         checked_column(self.column)
-        checked_mass_ratio(self.mass_ratio)
+        checks.set_fields(self, mass_ratio=checked_mass_ratio(self.mass_ratio))
+        object.__setattr__(self, "columns", checks.whole("columns", self.columns, 2))
 
     @classmethod
     def of_masses(
@@ -191,17 +203,16 @@ class RockingFrame:
         cap_mass, column_mass : float
             m_b of the cap beam and m_c of one column, in the same unit.
         columns : int
-            N, 2 or more: a cap beam on one column would tilt.
+            N.
 
         Raises
         ------
         ValueError
             For a mass or a number of columns outside its range.
         """
-        if not isinstance(columns, int) or isinstance(columns, bool) or columns < 2:
-            raise ValueError(f"columns is {columns!r}; expected a whole number from 2 on")
+        number = checks.whole("columns", columns, 2)
         cap = checks.not_negative("cap_mass", cap_mass)
-        return cls(column, cap / (columns * checks.positive("column_mass", column_mass)))
+        return cls(column, cap / (number * checks.positive("column_mass", column_mass)), number)
 
     @property
     def slenderness(self) -> float:
@@ -270,10 +281,20 @@ def checked_column(value: object) -> None:
         raise ValueError(f"column is {short(value)}; expected a Column")
 
 
-def checked_mass_ratio(value: float) -> None:
-    """Raise ValueError unless γ is a number from 0 to infinity."""
-    if not checks.number("mass_ratio", value) >= 0.0:
-        raise ValueError(f"mass_ratio is {value:.6g}; expected γ = m_b / 2 m_c from 0 to infinity")
+def checked_mass_ratio(value: float) -> float:
+    """Return γ as a float, or raise ValueError unless it is a number from 0 to infinity."""
+    if not (ratio := checks.number("mass_ratio", value)) >= 0.0:
+        raise ValueError(f"mass_ratio is {ratio:.6g}; expected γ = m_b / 2 m_c from 0 to infinity")
+    return ratio
+
+
+def checked_two_columns(frame: RockingFrame) -> None:
+    """Raise ValueError for a frame of more than two columns, whose spans and forces are unknown."""
+    if frame.columns != 2:
+        raise ValueError(
+            f"frame has {frame.columns} columns; expected two, for which contacts and forces are "
+            "known: RockingFrame(column, mass_ratio) with the same γ has two"
+        )
 
 
 def size_ratio(mass_ratio: float) -> float:

@@ -21,13 +21,26 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import reduce
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.bodies.structures import STANDARD_GRAVITY, Column, RockingFrame
+from topheavy.bodies.response import Response
+from topheavy.bodies.structures import (
+    STANDARD_GRAVITY,
+    Column,
+    RockingFrame,
+    checked_two_columns,
+)
+from topheavy.checks import short
+from topheavy.ground.excitation import Excitation
+from topheavy.ground.records import Record
+from topheavy.outcomes.simulate import simulate
+
+if TYPE_CHECKING:
+    import xarray
 
 Array = NDArray[np.float64]
 
@@ -58,8 +71,11 @@ class Cap:
     half_depth: float
 
     def __post_init__(self) -> None:
-        checks.positive("span", self.span, "m")
-        checks.positive("half_depth", self.half_depth, "m")
+        checks.set_fields(
+            self,
+            span=checks.positive("span", self.span, "m"),
+            half_depth=checks.positive("half_depth", self.half_depth, "m"),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +125,7 @@ class ContactForces:
     Examples
     --------
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> forces = th.contact_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> forces = th.impact_impulses(frame, th.Cap(span=5.0, half_depth=0.4), 0.5)
     >>> round(forces.top_right.vertical.item(), 3)
     0.401
     """
@@ -137,14 +153,14 @@ class ContactForces:
         return least
 
 
-def contact_forces(
+def forces_at(
     frame: RockingFrame,
     cap: Cap,
     rotation: ArrayLike,
     velocity: ArrayLike,
-    ground_acceleration: ArrayLike = 0.0,
+    ground_acceleration: ArrayLike,
 ) -> ContactForces:
-    """Return the forces on a rocking frame, over its weight (2 m_c + m_b) g.
+    """Return the forces on a frame in states of its motion, over its weight (2 m_c + m_b) g.
 
     The motion is that of Eq. (23). The forces are not limited where a contact cannot provide them:
     a tension or a very large required friction shows that the assumed motion is impossible.
@@ -166,15 +182,17 @@ def contact_forces(
     Raises
     ------
     ValueError
-        For a rotation of π/2 or more, or a span that is not more than the columns' width 2b.
+        For a rotation of π/2 or more, a span that is not more than the columns' width 2b, and a
+        frame of more than two columns.
 
     Examples
     --------
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> forces = th.contact_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> forces = forces_at(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0, 0.0)
     >>> round(forces.base_left.vertical.item(), 3)
     0.422
     """
+    checked_two_columns(frame)
     checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
     motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
     size, p_hat = frame.column.size, frame.frequency_parameter
@@ -185,11 +203,11 @@ def contact_forces(
 
 
 def column_forces(
-    column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike = 0.0
+    column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
 ) -> Reaction:
     """Return the force of the ground on a solitary rocking column, over its weight m g.
 
-    Parameters, and the side that it turns to from θ = 0, are as in `contact_forces`. At rest the
+    Parameters, and the side that it turns to from θ = 0, are as in `forces_at`. At rest the
     force is determinate: the ground's acceleration times the mass, and the weight.
 
     Raises
@@ -226,7 +244,8 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     Raises
     ------
     ValueError
-        When √r of Eq. (25) is negative, or the span is not more than the columns' width 2b.
+        When √r of Eq. (25) is negative, the span is not more than the columns' width 2b, or the
+        frame has more than two columns.
 
     Examples
     --------
@@ -235,6 +254,7 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     >>> round(impulses.base_left.vertical.item(), 3)
     0.333
     """
+    checked_two_columns(frame)
     checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
     column_weight, beam_weight = weights(frame.mass_ratio)
     size = frame.column.size
@@ -243,6 +263,110 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     side = np.sign(np.asarray(velocity, dtype=float))
     lean = np.full(side.shape, frame.slenderness)
     return _distributed(frame, cap, side, lean, column, beam)
+
+
+CONTACTS = ("base_left", "base_right", "top_left", "top_right")
+"""The names of the contacts, those of the fields of `ContactForces`."""
+
+BESIDE_IMPACT = 1e-8
+"""Time before and after an impact at which the forces are computed, times 1/p̂."""
+
+SAME_MOTION = 1e-6
+"""Largest difference of θ, over α, between a response and its repetition."""
+
+
+def contact_forces(
+    structure: RockingFrame, cap: Cap, response: Response, motion: Excitation | None = None
+) -> xarray.Dataset:
+    """Return the forces at the four contacts of a frame during a response, over its weight.
+
+    The response is followed again, at its own times, at the samples of a record, and just before
+    and after each impact, where the forces jump. The impulses of the impacts themselves are those
+    of `impact_impulses`.
+
+    Parameters
+    ----------
+    structure : RockingFrame
+        Of two columns, without a √r of its own.
+    cap : Cap
+    response : Response
+        Of this structure to this motion, as `simulate` returns it, from t = 0.
+    motion : Pulse or Record, optional
+        None of free rocking.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (contact, time): horizontal (to the right) and vertical (upward), the force on the
+        body above the contact over (2 m_c + m_b) g; required_friction, their ratio, infinite where
+        the contact opens. NaN at rest, where whole faces are in contact, and after overturning.
+
+    Raises
+    ------
+    ValueError
+        For another structure, and for a response that is not the one of this structure to this
+        motion or does not begin at t = 0.
+
+    Examples
+    --------
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> pulse = th.Pulse("one-sine", 0.25, period=1.5)
+    >>> response = th.simulate(frame, pulse)
+    >>> forces = th.contact_forces(frame, th.Cap(span=5.0, half_depth=0.4), response, pulse)
+    >>> round(float(forces.required_friction.max()), 3), bool(forces.vertical.min() > 0.0)
+    (0.331, True)
+    """
+    import xarray  # it imports pandas, a second that only tables need
+
+    if not isinstance(structure, RockingFrame):
+        raise ValueError(f"structure is {short(structure)}; expected a RockingFrame")
+    if response.time[0] != 0.0:
+        raise ValueError(f"response begins at {response.time[0]:.6g} s; expected t = 0")
+    time = _times_of_forces(structure, response, motion)
+    again = simulate(
+        structure,
+        motion,
+        rotation=response.rotation[0],
+        velocity=response.velocity[0],
+        duration=float(time[-1]) if motion is not None and math.isinf(motion.duration) else None,
+        samples=time,
+    )
+    repeated = again.rotation[np.searchsorted(time, response.time)]
+    apart = np.abs(repeated - response.rotation) / structure.slenderness
+    if not (np.isnan(repeated) == np.isnan(response.rotation)).all() or (apart > SAME_MOTION).any():
+        raise ValueError(
+            f"response differs by up to {np.nanmax(apart):.3g} α from that of this structure to "
+            "this motion; expected the structure and the motion that it was simulated with, "
+            "without a vertical component"
+        )
+    ground = np.zeros(time.size) if motion is None else motion.accelerations(time)
+    ended = ~(np.abs(again.rotation) < math.pi / 2)  # or NaN: it lies flat
+    forces = forces_at(structure, cap, np.where(ended, 0.0, again.rotation), again.velocity, ground)
+    columns = {
+        "horizontal": [contact.horizontal for contact in forces.contacts],
+        "vertical": [contact.vertical for contact in forces.contacts],
+        "required_friction": [contact.friction_demand for contact in forces.contacts],
+    }
+    return xarray.Dataset(
+        {
+            name: (("contact", "time"), np.where(ended, np.nan, values), {"units": "1"})
+            for name, values in columns.items()
+        },
+        {"contact": [*CONTACTS], "time": ("time", time, {"units": "s"})},
+        {"over": "weight (2 m_c + m_b) g"},
+    )
+
+
+def _times_of_forces(
+    structure: RockingFrame, response: Response, motion: Excitation | None
+) -> Array:
+    """Return the times of a response, of a record's samples, and beside the impacts, s."""
+    beside = BESIDE_IMPACT / structure.frequency_parameter
+    times = [response.time, response.impacts - beside, response.impacts + beside]
+    if isinstance(motion, Record):
+        times.append(motion.time)
+    together = np.unique(np.concatenate(times))
+    return together[(together >= 0.0) & (together <= response.time[-1])]
 
 
 class _State(NamedTuple):

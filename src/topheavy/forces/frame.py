@@ -1,6 +1,6 @@
 """Base shear, overturning moment and bending moments of a rocking frame, and of a clamped one.
 
-They follow from the contact forces of `topheavy.contact_forces`. The loads of a column are the
+They follow from the forces of `topheavy.forces.contact.forces_at`. The loads of a column are the
 forces at its two contacts, half its width beside its axis, and its own weight and inertia. With the
 transverse and axial force t and n of the ground on the column, and the position c = b sgn θ of the
 contact, the bending moment at the height z along the axis is
@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
-from topheavy.forces.contact import Cap, contact_forces, motion_state, weights
+from topheavy.forces.contact import Cap, forces_at, motion_state, weights
 from topheavy.ground.excitation import Excitation, checked_excitation
 
 Array = NDArray[np.float64]
@@ -47,7 +47,7 @@ class FrameForces:
     Examples
     --------
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> forces = frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> forces = frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0, 0.0)
     >>> round(forces.overturning_moment.item(), 4)
     -0.8553
     """
@@ -62,19 +62,19 @@ def frame_forces(
     cap: Cap,
     rotation: ArrayLike,
     velocity: ArrayLike,
-    ground_acceleration: ArrayLike = 0.0,
+    ground_acceleration: ArrayLike,
 ) -> FrameForces:
     """Return the forces of a frame whose motion is that of Eq. (23).
 
-    The parameters are those of `contact_forces`. At rest, base shear and overturning moment follow
+    The parameters are those of `forces_at`. At rest, base shear and overturning moment follow
     from the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
 
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> forces = frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> forces = frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0, 0.0)
     >>> round(forces.base_shear.item(), 4)
     -0.1019
     """
-    contacts = contact_forces(frame, cap, rotation, velocity, ground_acceleration)
+    contacts = forces_at(frame, cap, rotation, velocity, ground_acceleration)
     motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
     rests, half_height = np.isnan(motion.side), frame.column.half_height
     corner = motion.side * frame.column.half_width
