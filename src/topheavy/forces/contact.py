@@ -127,7 +127,7 @@ class ContactForces:
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
     >>> forces = th.impact_impulses(frame, th.Cap(span=5.0, half_depth=0.4), 0.5)
     >>> round(forces.top_right.vertical.item(), 3)
-    0.401
+    0.398
     """
 
     base_left: Reaction
@@ -310,11 +310,11 @@ def contact_forces(
     Examples
     --------
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> pulse = th.Pulse("one-sine", 0.25, period=1.5)
+    >>> pulse = th.Pulse("one-sine", 0.3, period=0.8)
     >>> response = th.simulate(frame, pulse)
     >>> forces = th.contact_forces(frame, th.Cap(span=5.0, half_depth=0.4), response, pulse)
     >>> round(float(forces.required_friction.max()), 3), bool(forces.vertical.min() > 0.0)
-    (0.331, True)
+    (0.214, True)
     """
     import xarray  # it imports pandas, a second that only tables need
 
@@ -366,7 +366,8 @@ def _times_of_forces(
     if isinstance(motion, Record):
         times.append(motion.time)
     together = np.unique(np.concatenate(times))
-    return together[(together >= 0.0) & (together <= response.time[-1])]
+    inside: Array = together[(together >= 0.0) & (together <= response.time[-1])]
+    return inside
 
 
 class _State(NamedTuple):

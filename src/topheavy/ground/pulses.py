@@ -92,7 +92,7 @@ class Pulse(Excitation):
     --------
     >>> th.Pulse("one-sine", 0.4, period=3.0).duration
     3.0
-    >>> th.Pulse("one-sine", 0.4, period=3.0, cycles=5).duration
+    >>> round(th.Pulse("one-sine", 0.4, period=3.0, cycles=5).duration, 9)
     15.0
     """
 
@@ -115,13 +115,14 @@ class Pulse(Excitation):
                 f"angular_frequency is {angular_frequency} and period is {period}; expected one "
                 "of both, in rad/s or s"
             )
-        checks.acceleration("amplitude", amplitude)
         if period is not None:
             angular_frequency = 2.0 * math.pi / checks.positive("period", period, "s")
-        checks.positive("angular_frequency", angular_frequency, "rad/s")
         object.__setattr__(self, "shape", checked_shape(shape))
-        object.__setattr__(self, "amplitude", amplitude)
-        object.__setattr__(self, "angular_frequency", angular_frequency)
+        checks.set_fields(
+            self,
+            amplitude=checks.acceleration("amplitude", amplitude),
+            angular_frequency=checks.positive("angular_frequency", angular_frequency, "rad/s"),
+        )
         object.__setattr__(self, "cycles", _checked_cycles(cycles, shape))
 
     def __repr__(self) -> str:
