@@ -2,7 +2,7 @@
 
 Hypothesis draws structures, motions and arguments with their edges: √r of 0 and 1, γ of 0 and ∞, no
 amplitude, the level of uplift to the last bit, plateaus, single samples. Maps and lists of factors,
-`simulate` and `judge`, SciPy (`reference`) and interval arithmetic have to agree on each outcome
+`simulate` and `judge`, the plain solver and interval arithmetic have to agree on each outcome
 that slight changes of the motion leave as it is. An error may be the ArithmeticError of a history
 that bounces for too long.
 
@@ -27,12 +27,12 @@ from hypothesis import HealthCheck, Phase, assume, given, seed, settings
 from hypothesis import strategies as st
 
 import topheavy as th
+from steps.shared import plain
 from topheavy.bodies import free_rocking
 from topheavy.bodies.structures import RockingBlock, Structure, solitary_size
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.shapes import FINITE_SHAPES
-from topheavy.second import reference
 
 #: Cases of a property in its turn, s of the processor for one, and the first two of all turns.
 TURN, LONGEST = 25, 60.0
@@ -157,7 +157,7 @@ def endings(case: Any) -> None:
     structure, motion, vertical = case
     block, above = structure.block(), {"vertical": vertical}
     ends = partial(th.judge, structure, **above)
-    agree(block, motion, ends, partial(reference.judge, structure, **above), "judge, SciPy")
+    agree(block, motion, ends, partial(plain.judge, structure, **above), "judge, plain solver")
     whole, end = th.simulate(structure, motion, **above), ends(motion)
     if whole.overturned != end.overturned:
         assert decided(ends, motion, end) == math.inf, f"{whole.outcome}, {end}"
@@ -181,7 +181,7 @@ def histories(case: Any, data: st.DataObject) -> None:
     length = data.draw(edged(0.01, 1.0)) * max(1.0, p * motion.duration) / p
     times = data.draw(st.one_of(st.integers(2, 50), st.just([length])))
     how = {**start, "vertical": vertical, "duration": length, "samples": times}
-    one, two = (follow(structure, motion, **how) for follow in (th.simulate, reference.simulate))
+    one, two = (follow(structure, motion, **how) for follow in (th.simulate, plain.simulate))
     assert one.overturned or one.outcome == "no uplift" or np.isfinite(one.rotation).all()
     apart = np.nanmax(np.abs(one.rotation - two.rotation), initial=0.0)
     if one.overturned == two.overturned and apart <= CLOSE * alpha:

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact as closed
 from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES
 from topheavy.kernel.grid import outcomes_of
-from topheavy.second import reference
 
 ROOT = Path(__file__).resolve().parents[1]
 RECORDS = ROOT / "data" / "records"
@@ -24,8 +24,8 @@ BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "
 SIDES = pytest.mark.parametrize("side", [1.0, -1.0])
 CLOSED_PULSES = [shape for shape in ELEMENTARY if shape in FINITE_SHAPES]
 
-NAMES = {th.simulate: "Taylor", reference.simulate: "SciPy", closed: "closed"}
-CLOSE = {th.simulate: 1e-8, reference.simulate: 1e-8, closed: 1e-13}
+NAMES = {th.simulate: "Taylor", plain.simulate: "plain", closed: "closed"}
+CLOSE = {th.simulate: 1e-8, plain.simulate: 1e-8, closed: 1e-13}
 """How near a solver is to a closed form, of α and of amplitudes."""
 
 
@@ -41,8 +41,8 @@ def solvers(*blocks):
 
 EVERY = pytest.mark.parametrize(("solve", "block"), solvers(BLOCK, BLOCK.linear()))
 ON_LINEAR = pytest.mark.parametrize("solve", NAMES, ids=NAMES.values())
-TWO = [th.simulate, reference.simulate]
-BY_TWO = pytest.mark.parametrize("solve", TWO, ids=["Taylor", "SciPy"])
+TWO = [th.simulate, plain.simulate]
+BY_TWO = pytest.mark.parametrize("solve", TWO, ids=["Taylor", "plain"])
 
 
 def broken(findings):

@@ -1,18 +1,12 @@
-"""What may import what: the library no step, kernel and second solvers never each other."""
+"""What may import what: the library no step, and the plain solver nothing of ours."""
 
 import ast
 import sys
 
-import pytest
-
-import topheavy
 from tests.cases import ROOT
 
 LIBRARY = ROOT / "src" / "topheavy"
-PATHS = {
-    ".".join(path.relative_to(LIBRARY.parent).with_suffix("").parts).removesuffix(".__init__"): path
-    for path in LIBRARY.rglob("*.py")
-}
+AUDIT = ROOT / "src" / "audit.py"
 
 
 def imported(path):
@@ -22,19 +16,6 @@ def imported(path):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and not node.level:
             yield from (f"{node.module}.{alias.name}" for alias in node.names)
-
-
-def reached(room):
-    """The modules of the library that those of a room import, these too, and so on."""
-    found, left = set(), [name for name in PATHS if name.startswith(f"topheavy.{room}")]
-    while left:
-        if (name := left.pop()) in PATHS and name not in found:
-            found.add(name)
-            left += [*imported(PATHS[name]), name.rpartition(".")[0]]
-        elif name.startswith("topheavy.") and name not in found:  # in a module, or at the door
-            of = getattr(topheavy, name.removeprefix("topheavy."), None)
-            left.append(getattr(of, "__module__", name.rpartition(".")[0]))
-    return found
 
 
 def first_names(folder):
@@ -49,7 +30,15 @@ def test_checker_imports_only_the_standard_library():
     assert first_names(LIBRARY / "proven" / "checking") <= sys.stdlib_module_names
 
 
-@pytest.mark.parametrize(("room", "other"), [("kernel", "second"), ("second", "kernel")])
-def test_kernel_and_second_solvers_never_reach_each_other(room, other):
-    assert len(reached(room)) > 10
-    assert [name for name in reached(room) if name.startswith(f"topheavy.{other}")] == []
+def test_the_plain_solver_shares_no_line_with_the_library_and_three_bodies_with_neither():
+    assert first_names(LIBRARY).isdisjoint({"audit"})
+    names = {name.split(".")[0] for name in imported(AUDIT)}
+    assert names <= {*sys.stdlib_module_names, "numpy", "scipy"}
+    shared = lines(AUDIT) & set().union(*map(lines, LIBRARY.rglob("*.py")))
+    assert [line for line in shared if len(line) > 40] == []
+    bodies = " ".join(imported(ROOT / "src/steps/shared/three_bodies.py"))
+    assert not any(name in bodies for name in ("audit", "shared.plain", "topheavy.kernel"))
+
+
+def lines(path):
+    return {line.strip() for line in path.read_text(encoding="utf-8").splitlines()}

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact
 from steps.shared.three_bodies import simulate_three_bodies
 from tests.cases import COLUMN, FRAME
 from topheavy import checks
 from topheavy.bodies.response import MAX_SAMPLES
 from topheavy.ground.shapes import ELEMENTARY
-from topheavy.second import reference
 
 EVERY = [
     checks.finite,
@@ -99,9 +99,9 @@ RICKER = th.Pulse("ricker-symmetric", 0.5, 6.0)
 NEVER_ENDS = th.Pulse("harmonic", 0.3, 6.0)
 BODIES = partial(simulate_three_bodies, span=5.0, cap_depth=0.6, duration=1.0)
 FACTORS = partial(th.overturned_by, factors=[1.0])
-JUDGES = [th.judge, reference.judge, FACTORS]
-HISTORIES = [th.simulate, reference.simulate, simulate_linear_exact, BODIES]
-TOLERANT = [th.simulate, reference.simulate, BODIES, *JUDGES]
+JUDGES = [th.judge, plain.judge, FACTORS]
+HISTORIES = [th.simulate, plain.simulate, simulate_linear_exact, BODIES]
+TOLERANT = [th.simulate, plain.simulate, BODIES, *JUDGES]
 
 
 def refused(solver, message, *, structure=FRAME, excitation=PULSE, **options):
@@ -112,7 +112,7 @@ def refused(solver, message, *, structure=FRAME, excitation=PULSE, **options):
     assert len(str(error.value)) < 400  # no array is printed whole
 
 
-@pytest.mark.parametrize("solver", [th.simulate, reference.simulate, *JUDGES])
+@pytest.mark.parametrize("solver", [th.simulate, plain.simulate, *JUDGES])
 @pytest.mark.parametrize("structure", [3, None, th.Column, np.ones((5000, 2))], ids=type)
 def test_what_is_no_structure_is_refused(solver, structure):
     refused(solver, "structure is .*; expected a Column, a RockingFrame", structure=structure)

@@ -9,12 +9,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import topheavy as th
+from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact as closed
 from tests.cases import BLOCK, RECORDS
 from topheavy.bodies.free_rocking import barrier, energy
 from topheavy.checks import MAX_ACCELERATION
 from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES, PULSE_SHAPES
-from topheavy.second import reference
 
 few = settings(max_examples=15, deadline=None, derandomize=True, database=None)
 many = settings(few, max_examples=120)
@@ -117,12 +117,12 @@ def test_energy_never_grows_once_the_ground_rests_and_falls_at_impacts_alone(cas
     np.testing.assert_allclose(np.diff(height)[same], 0.0, rtol=0, atol=1e-8 * top)
 
 
-# ---------------------------------------------------------------------------- Taylor and SciPy
+# ---------------------------------------------------------------------------- Taylor and plain
 
 
 @many
 @given(shaken())
-def test_motion_is_judged_as_by_the_reference(case):
+def test_motion_is_judged_as_by_the_plain_solver(case):
     """Where 1e-8 of the excitation decides nothing.
 
     Only impacts that end a rotation near 1e-6 α may be counted by one and not by the other.
@@ -130,7 +130,7 @@ def test_motion_is_judged_as_by_the_reference(case):
     block, motion = case
     less, end, more = (th.judge(block, motion.scaled(x)) for x in (1 - 1e-8, 1.0, 1 + 1e-8))
     assume(less.overturned == end.overturned == more.overturned)
-    expected = reference.judge(block, motion)
+    expected = plain.judge(block, motion)
     assert end.overturned == expected.overturned
     if less.impacts == end.impacts == more.impacts:
         assert abs(end.impacts - expected.impacts) <= 1
@@ -141,13 +141,13 @@ def test_motion_is_judged_as_by_the_reference(case):
 
 @few
 @given(shaken())
-def test_history_is_that_of_the_reference(case):
+def test_history_is_that_of_the_plain_solver(case):
     block, motion = case
     times = np.linspace(0.0, 1.5 * motion.duration, 100)
     less, kernel, more = (
         th.simulate(block, motion.scaled(1 + x), samples=times) for x in (-1e-8, 0.0, 1e-8)
     )
-    found = reference.simulate(block, motion, samples=times)
+    found = plain.simulate(block, motion, samples=times)
     assert kernel.outcome == found.outcome
     known = np.isfinite(sum(one.rotation for one in (less, kernel, more, found)))
     assert np.count_nonzero(known) > 5
@@ -220,14 +220,14 @@ def test_solver_agrees_with_the_closed_form_in_el_centro(gamma, factor):
 
 @pytest.mark.parametrize("linearised", [False, True])
 @pytest.mark.parametrize("degrees", [0.1, 14.0, 80.0])
-@pytest.mark.parametrize("ratio", [1e-3, 1e3])
+@pytest.mark.parametrize("ratio", [0.05, 1e3])
 @pytest.mark.parametrize("strength", [1 + 1e-9, 1.5, 1e3])
 def test_extreme_input_is_answered_alike_by_both_routes(strength, ratio, degrees, linearised):
     block = th.RockingBlock(2.0, math.radians(degrees), 0.9, linearised)
     for shape in ("one-sine", "one-cosine", "ricker-symmetric", "ricker-antisymmetric"):
         pulse = th.Pulse(shape, strength * block.uplift_acceleration, ratio * 2.0)
         end, whole = th.judge(block, pulse), th.simulate(block, pulse, samples=5)
-        expected = reference.judge(block, pulse)
+        expected = plain.judge(block, pulse)
         assert (end.overturned, end.impacts) == (whole.overturned, whole.number_of_impacts)
         assert end.overturned == expected.overturned
         assert strength < 1.1 or end.overturned == (ratio < 1)
@@ -243,7 +243,7 @@ def test_amplitude_overflows_beyond_the_largest_alone(shape):
     pulse, whole = th.Pulse(shape, MAX_ACCELERATION, 5.0), shape != "harmonic"
     for block in (BLOCK, BLOCK.linear()) if whole else ():
         assert th.judge(block, pulse).overturned
-        assert reference.judge(block, pulse).overturned
+        assert plain.judge(block, pulse).overturned
         if block.linearised and shape in ELEMENTARY:
             assert closed(block, pulse).overturned
     with pytest.raises(ValueError, match=r"expected at most|forever"):

@@ -7,10 +7,10 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, grid, run, value
+from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact
 from topheavy import Column, Pulse, RockingFrame, judge, read_record, simulate
 from topheavy.bodies.massless_columns import SIMPLIFICATIONS, simplified
-from topheavy.second import reference
 
 AGREE = 1e-6  # of α, between solvers
 
@@ -40,7 +40,7 @@ def histories(frame, settings, record, tightened):
             response = simulate(block, excitation, samples=times)
             others = [
                 simulate(block, excitation, samples=times, tolerance=tightened),
-                reference.simulate(block, excitation, samples=times),
+                plain.simulate(block, excitation, samples=times),
             ]
             if model == "all":
                 others.append(simulate_linear_exact(block, excitation, samples=times))

@@ -6,11 +6,11 @@ import numpy as np
 import sympy as sp
 
 from replication.step import check, run, truth, value
+from steps.shared import plain
 from topheavy import Column, Pulse, RockingFrame, lowest_overturning
 from topheavy.bodies.moment_rotation import restoring_moment
 from topheavy.derivation.motion import RECTANGULAR_OF_TWO, potential_energy
 from topheavy.derivation.notation import POSITIVE, R, alpha, g, gamma, m_c
-from topheavy.second import reference
 
 ROUNDING = 1e-12  # of m_c g R
 DIGITS = 1e-8  # of a number in a table
@@ -33,15 +33,18 @@ def moment_by_energy(mass_ratio, slenderness, rotations):
 
 
 def minimum(frame, shape, period):
-    """Return the minimum overturning acceleration of a pulse, g, which SciPy has to confirm."""
+    """Return the minimum overturning acceleration of a pulse, g, by both solvers."""
     level = frame.uplift_acceleration
     pulse = Pulse(shape, 1.0, 2 * math.pi / period)
     low, high = lowest_overturning(
         frame, pulse, (level, HIGHEST * level), floor=FLOOR * level
     ).bracket
     sides = [low * (1 - ASIDE), high * (1 + ASIDE)]
-    outcomes = [reference.judge(frame, pulse.scaled(side)).overturned for side in sides]
-    check(outcomes == [False, True], f"SciPy says {outcomes} beside the minimum of {high:.6g} g")
+    outcomes = [plain.judge(frame, pulse.scaled(side)).overturned for side in sides]
+    check(
+        outcomes == [False, True],
+        f"the plain solver says {outcomes} beside the minimum of {high:.6g} g",
+    )
     return high
 
 

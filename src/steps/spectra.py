@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, run, truth, value
-from steps.shared import cycles
+from steps.shared import cycles, plain
 from steps.shared.spectrum import (
     CHANGES,
     FRAME,
@@ -27,7 +27,6 @@ from steps.shared.spectrum import (
     search,
 )
 from topheavy import judge, simulate
-from topheavy.second import reference
 
 COLUMN = 0.0  # γ
 LEAST_RISES = 20  # of the minimum from one γ to the next, looked at again: there a miss would show
@@ -216,19 +215,19 @@ def collapse_of(spectra: Spectra) -> pd.DataFrame:
 
 
 def overturns(structure: tuple, place: tuple, amplitude: float, tightened: float) -> bool:
-    """Return whether an amplitude overturns a structure, at a tightened tolerance and by SciPy."""
+    """Return whether an amplitude overturns a structure, by both solvers."""
     _, block, pulse = line(*structure[:2], *place)
     pulse = pulse.scaled(amplitude)
     by_both = {
         judge(block, pulse, tolerance=tightened).overturned,
-        reference.judge(block, pulse).overturned,
+        plain.judge(block, pulse).overturned,
     }
     check(len(by_both) == 1, f"the solvers disagree on {structure}, {place} at {amplitude:.9g}")
     return by_both.pop()
 
 
 def check_sample(spectra: Spectra, bands: list[Band], spec: dict, tightened: float) -> None:
-    """Check outcomes by the second solver: in bands, and within 0.1 % of minima."""
+    """Check outcomes by the plain solver: in bands, and within 0.1 % of minima."""
     random = np.random.default_rng(spec["seed"])
     widths = np.array([band.high - band.low for band in bands])
     keys = [*spectra.intervals]

@@ -7,9 +7,9 @@ import pandas as pd
 
 from replication.step import check, grid, run, truth, value
 from replication.verdicts import print_rounding
+from steps.shared import plain
 from topheavy import Column, Pulse, RockingFrame, simulate
 from topheavy.bodies.structures import STANDARD_GRAVITY
-from topheavy.second import reference
 
 DIGITS = 5e-9  # of a number in a table
 ASIDE = 1e-6  # of a threshold, to either side
@@ -114,7 +114,7 @@ def starts(frame, settings, tightened):
         responses[middle] = shaken(middle)
         low, high = (middle, high) if responses[middle].outcome == "rests" else (low, middle)
     smooth, abrupt = responses[0.0], responses[1.0]
-    for other in (shaken(1.0, tolerance=tightened), shaken(1.0, reference.simulate)):
+    for other in (shaken(1.0, tolerance=tightened), shaken(1.0, plain.simulate)):
         apart = np.abs(other.rotation - abrupt.rotation).max() / alpha
         check(
             apart < AGREE and other.outcome == abrupt.outcome,

@@ -12,13 +12,13 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, grid, run, truth
+from steps.shared import plain
 from steps.shared.histories import history
 from topheavy import Cap, Column, Pulse, RockingFrame, simulate
 from topheavy.forces.frame import base_shear_slope, clamped_forces, largest_forces
-from topheavy.second import reference
 
 FORCES = ("base_shear", "overturning_moment", "bending_moment")
-SEED = 2014  # of the histories that SciPy computes again
+SEED = 2014  # of the histories that the plain solver computes again
 CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
 HALVED = 5e-3  # relative: what half as many samples may change a peak by
 
@@ -30,7 +30,7 @@ def peaks(
 
     NaN where it overturns.
     """
-    whole = solver(frame, pulse, samples=2)
+    whole = simulate(frame, pulse, samples=2)
     if whole.overturned:
         return whole.outcome, np.full(len(FORCES), math.nan)
     course = history(frame, pulse, points, solver, whole)
@@ -66,10 +66,10 @@ def compute(settings: dict, column: dict) -> list[dict]:
             survivors.append((frame, pulse, forces))
     picked = np.random.default_rng(SEED).permutation(len(survivors))[: settings["sample"]]
     for frame, pulse, forces in (survivors[place] for place in picked):
-        _, again = peaks(frame, cap, pulse, settings["points"], reference.simulate)
+        _, again = peaks(frame, cap, pulse, settings["points"], plain.simulate)
         check(
             bool(np.allclose(again, forces, rtol=CLOSE)),
-            f"SciPy has {again} in place of {forces}: {frame} under {pulse}",
+            f"the plain solver has {again} in place of {forces}: {frame} under {pulse}",
         )
     return rows
 

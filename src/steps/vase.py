@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, grid, run, truth, value
+from steps.shared import plain
 from steps.shared.poses import bodies, lying, structures
 from topheavy import (
     STANDARD_GRAVITY,
@@ -28,11 +29,14 @@ from topheavy import (
     simulate,
 )
 from topheavy.bodies.structures import Structure
-from topheavy.second import reference
 
-DISTANCES = (1e-7, 1e-5, 1e-3)  # from a minimum, over it: where SciPy judges, from near to far
+DISTANCES = (
+    1e-7,
+    1e-5,
+    1e-3,
+)  # over a minimum: where the plain solver judges
 CHUNK = 512  # factors that are tried in one call where a wide interval is sought
-SEED = 2014  # of the minima that SciPy judges
+SEED = 2014  # of the minima that the plain solver judges
 FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of a structure that overturns
 BARE, FIXED, FREE, PORTAL = "bare", "fixed", "free", "portal"
 
@@ -82,18 +86,20 @@ def lowest_wide(
 
 
 def error_of(structure: Structure, pulse: Pulse, interval: LowestOverturning) -> float:
-    """Return how far a minimum may be off by SciPy, g; stop where it finds none within 1e-3."""
+    """Return by how much the plain solver confirms a minimum, g; stop beyond 1e-3 of it."""
     low, high = interval.bracket
     last = interval.upper[0] if interval.upper else interval.scale_range[1]
 
     def overturns(factor: float) -> bool:
-        return reference.judge(structure, pulse.scaled(factor)).overturned
+        return plain.judge(structure, pulse.scaled(factor)).overturned
 
     for distance in DISTANCES:
         above = min(high * (1.0 + distance), 0.5 * (high + last))
         if overturns(above) and not overturns(low * (1.0 - distance)):
             return distance * high + high - low
-    check(False, f"SciPy finds no minimum of {structure} near {high:.9g} g under {pulse}")
+    check(
+        False, f"the plain solver finds no minimum of {structure} near {high:.9g} g under {pulse}"
+    )
     return math.nan
 
 
@@ -127,8 +133,8 @@ def of_one_period(column: Column, settings: dict) -> list[dict]:
 def over_frequency(column: Column, settings: dict) -> list[dict]:
     """Return the minima of all structures under each pulse, infinite where nothing overturns.
 
-    SciPy judges a sample of the minima, and every exception: there the structure with the higher
-    minimum has to survive the lower one.
+    The plain solver judges a sample of the minima, and every exception: there the structure with
+    the higher minimum has to survive the lower one.
     """
     highest, floor = settings["highest"] * column.uplift_acceleration, settings["floor"]
     rows, sample = [], []
@@ -154,8 +160,11 @@ def over_frequency(column: Column, settings: dict) -> list[dict]:
             )
             if is_exception(name, minimum, bare):
                 later, earlier = (column, minimum) if name == FREE else (structure, bare)
-                falls = reference.judge(later, pulse.scaled(earlier)).overturned
-                check(not falls, f"{later} overturns at {earlier:.9g} g under {pulse}, by SciPy")
+                falls = plain.judge(later, pulse.scaled(earlier)).overturned
+                check(
+                    not falls,
+                    f"{later} overturns at {earlier:.9g} g under {pulse}, by the plain solver",
+                )
     chosen = np.random.default_rng(SEED).permutation(len(sample))[: settings["sample"]]
     for place in chosen:
         error_of(*sample[place])

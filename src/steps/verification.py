@@ -11,6 +11,7 @@ import sympy as sp
 from scipy.special import ellipkinc
 
 from replication.step import check, power_above, run, value
+from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact
 from topheavy import (
     Column,
@@ -26,7 +27,6 @@ from topheavy.derivation import motion
 from topheavy.derivation.notation import alpha, gamma
 from topheavy.ground.shapes import ELEMENTARY
 from topheavy.kernel.step import TOLERANCE
-from topheavy.second import reference
 
 OF_PRINT = 0.005  # of a number: the prints, which have three digits, are that far off at most
 OF_FORM = 1e-7  # of itself: a closed form
@@ -61,7 +61,7 @@ def solvers(tightened, is_solvable):
         return Ending(response.overturned, response.peak_rotation, 0)
 
     others = {
-        "SciPy integration": reference.judge,
+        "plain solver": plain.judge,
         "tightened tolerance": lambda block, pulse: judge(block, pulse, tolerance=tightened),
     }
     return others | ({"exact solution": exact} if is_solvable else {})

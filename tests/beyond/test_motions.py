@@ -9,7 +9,7 @@ import pytest
 
 from replication.config import read_yaml
 from steps.beyond import break_even, motions, records
-from steps.shared import filtered_noise, second, sweep
+from steps.shared import filtered_noise, plain, sweep
 from steps.shared.filtered_noise import Soil
 from tests.cases import COLUMN, ROOT
 from topheavy import Column, Record, RockingFrame, judge
@@ -174,7 +174,7 @@ def test_gain_and_ratio_are_those_of_the_outcomes():
 
 
 def test_tables_are_of_every_model_and_pair_of_frames(shards, monkeypatch):
-    monkeypatch.setattr(motions, "check_by_scipy", list)
+    monkeypatch.setattr(motions, "check_sample", list)
     monkeypatch.setattr(motions, "gains", lambda *_: [])  # four motions reach no median
     with np.errstate(divide="ignore", invalid="ignore"):
         found = motions.compute(SETTINGS, CONFIG["structures"], shards)
@@ -266,7 +266,7 @@ def test_end_is_that_of_the_outcomes(monkeypatch):
     fell = np.arange(8)[:, None, None] < counts[:, None]
     fell = np.repeat(fell, len(EVEN["velocities"]), axis=2)
     monkeypatch.setattr(break_even, "outcomes", lambda shards, name: fell.astype(np.int8))
-    monkeypatch.setattr(break_even, "check_by_scipy", list)
+    monkeypatch.setattr(break_even, "check_sample", list)
     settings = EVEN | {"lowered": [0.1, 0.2]}
     eight = SETTINGS | {"motions": 8}
     found = break_even.compute(settings, eight, CONFIG["structures"], [])
@@ -308,7 +308,7 @@ def test_counts_are_of_outcomes_that_are_known(monkeypatch):
     monkeypatch.setattr(
         records, "overturned", lambda frame, *_: np.array(outcomes[frame.mass_ratio])
     )
-    monkeypatch.setattr(records, "check_by_scipy", list)
+    monkeypatch.setattr(records, "check_sample", list)
     monkeypatch.setattr(records, "capacities", lambda *_: [])
     settings = {
         "mass_ratios": [0.0, 1.0],
@@ -357,7 +357,7 @@ def test_capacity_that_one_outcome_moves_is_not_decided(monkeypatch):
 
 def test_outcomes_that_a_nudge_changes_are_not_known():
     record = Record(0.01, np.sin(np.arange(200) / 20.0))
-    edge = second.beside_a_boundary(lambda f: judge(COLUMN, record.scaled(f)).overturned, 0.3)
+    edge = plain.beside_a_boundary(lambda f: judge(COLUMN, record.scaled(f)).overturned, 0.3)
     low, high = edge * 0.999, edge * 1.002
     for _ in range(60):
         middle = 0.5 * (low + high)
@@ -372,6 +372,6 @@ def test_outcomes_that_a_nudge_changes_are_not_known():
 
 def test_a_solver_that_differs_stops_the_step(monkeypatch):
     cells = [(COLUMN.block(), Record(0.01, np.sin(np.arange(200) / 20.0)), None, 0.1, False)]
-    second.check_by_scipy(cells)
+    plain.check_sample(cells)
     with pytest.raises(SystemExit, match="SciPy has 1 of 1 outcomes otherwise"):
-        second.check_by_scipy([(*cells[0][:-1], True)])
+        plain.check_sample([(*cells[0][:-1], True)])

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared import plain
 from tests.cases import COLUMN
 from topheavy import STANDARD_GRAVITY as G
 from topheavy import Column, RockingBlock, RockingFrame
 from topheavy.bodies.massless_columns import simplified
-from topheavy.second import reference
 
 WIDE = Column(0.5, 2.0)  # tan α = 1/4
 STOCKY = Column(2.0, 1.0)  # α = 63.4°: Housner's √r is 1 − 1.5 · 0.8 = −0.2
@@ -250,7 +250,7 @@ def test_minimum_overturning_acceleration_is_the_known_one(structure, known):
     start = structure.uplift_acceleration
     first, *_ = th.overturning_intervals(structure, PULSE, (start, 0.5), resolution=1e-3)
     assert first.lower[0] == pytest.approx(known, abs=1e-4)
-    for solver in (th.judge, reference.judge):
+    for solver in (th.judge, plain.judge):
         low, high = (PULSE.scaled(first.lower[i] * f) for i, f in ((0, 1 - 1e-6), (1, 1 + 1e-6)))
         assert not solver(structure, low).overturned
         assert solver(structure, high).overturned

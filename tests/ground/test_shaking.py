@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared import plain
 from steps.shared.three_bodies import simulate_three_bodies
 from tests.cases import RECORDS
 from topheavy.ground.vertical import TwoComponents
-from topheavy.second import reference
 
 COLUMN = th.Column(0.5, 3.0)
 FRAME = th.RockingFrame(COLUMN, 1.0)
@@ -24,17 +24,17 @@ def constant(value, time_step=0.02, samples=151):
 
 
 def test_no_vertical_acceleration_changes_nothing():
-    plain = reference.simulate(FRAME, SHAKE, samples=TIME)
-    with_zero = reference.simulate(FRAME, SHAKE, samples=TIME, vertical=constant(0.0, samples=101))
-    np.testing.assert_allclose(plain.rotation, with_zero.rotation, atol=1e-12)
+    without = plain.simulate(FRAME, SHAKE, samples=TIME)
+    with_zero = plain.simulate(FRAME, SHAKE, samples=TIME, vertical=constant(0.0, samples=101))
+    np.testing.assert_allclose(without.rotation, with_zero.rotation, atol=1e-12)
 
 
 def test_constant_vertical_acceleration_is_another_gravity():
     """In (1 + v) g the column has p √(1 + v) and feels ü_g/(1 + v)."""
     share = 0.7
-    lighter = reference.simulate(COLUMN, SHAKE, samples=TIME[:200], vertical=constant(share - 1.0))
+    lighter = plain.simulate(COLUMN, SHAKE, samples=TIME[:200], vertical=constant(share - 1.0))
     heavier = th.Column(COLUMN.half_width / share, COLUMN.half_height / share)
-    other = reference.simulate(heavier, SHAKE.scaled(1.0 / share), samples=TIME[:200])
+    other = plain.simulate(heavier, SHAKE.scaled(1.0 / share), samples=TIME[:200])
     assert np.abs(other.rotation).max() > 0.1 * COLUMN.slenderness
     np.testing.assert_allclose(lighter.rotation, other.rotation, atol=1e-9)
 
@@ -47,8 +47,8 @@ def test_samples_that_more_than_rounding_keeps_apart_begin_segments_of_their_own
 SOLVERS = (
     th.simulate,
     th.judge,
-    reference.simulate,
-    reference.judge,
+    plain.simulate,
+    plain.judge,
     lambda *arguments, **options: th.overturned_by(*arguments, [1.0], **options),
 )
 
@@ -107,19 +107,19 @@ def test_both_solvers_agree(up, linearised, factor):
     block = FRAME.block().linear() if linearised else FRAME.block()
     shaking = SHAKE.scaled(factor)
     ours = th.simulate(block, shaking, samples=TIME, duration=6.0, vertical=up)
-    theirs = reference.simulate(block, shaking, samples=TIME, duration=6.0, vertical=up)
+    theirs = plain.simulate(block, shaking, samples=TIME, duration=6.0, vertical=up)
     assert ours.outcome == theirs.outcome
     known = np.isfinite(ours.rotation + theirs.rotation)  # not after it has overturned
     off = ours.rotation[known] - theirs.rotation[known]
     assert np.abs(off).max() < 1e-7 * block.slenderness
     assert known.sum() > 100
     np.testing.assert_allclose(ours.impacts, theirs.impacts, atol=1e-5)
-    plain = th.simulate(block, shaking, samples=TIME, duration=6.0)
-    moved = np.abs(ours.rotation - plain.rotation)
+    level = th.simulate(block, shaking, samples=TIME, duration=6.0)
+    moved = np.abs(ours.rotation - level.rotation)
     assert np.nanmax(moved) > 1e-3 * block.slenderness
     alone, other = (
         th.judge(block, shaking, vertical=up),
-        reference.judge(block, shaking, vertical=up),
+        plain.judge(block, shaking, vertical=up),
     )
     assert (alone.overturned, alone.impacts) == (other.overturned, other.impacts)
     np.testing.assert_allclose(alone.peak, other.peak, rtol=0, atol=1e-8 * block.slenderness)
@@ -154,14 +154,14 @@ def test_factors_scale_both_or_one(scale_vertical, linearised):
     for factor, overturned in (*ends, *zip(minimum.upper, (True, False), strict=True)):
         up = weak.scaled(factor) if scale_vertical else weak
         inward = 1 if factor < minimum.upper[0] else -1
-        truth = reference.judge(
+        truth = plain.judge(
             block,
             SHAKE.scaled(1.8 * factor * (1 + 1e-8 * inward * (2 * overturned - 1))),
             vertical=up,
         )
         assert truth.overturned == overturned
-    plain = th.lowest_overturning(*arguments, floor=0.1)
-    assert abs(plain.factor - minimum.factor) > 1e-3
+    without = th.lowest_overturning(*arguments, floor=0.1)
+    assert abs(without.factor - minimum.factor) > 1e-3
 
 
 def test_measured_vertical_gives_both_solvers_the_same_outcomes():
@@ -179,6 +179,6 @@ def test_measured_vertical_gives_both_solvers_the_same_outcomes():
         for factor, overturned in zip(factors, row, strict=True):
             arguments = (structure, across.scaled(factor))
             ours = th.judge(*arguments, vertical=up.scaled(factor), tolerance=1e-13)
-            theirs = reference.judge(*arguments, vertical=up.scaled(factor))
+            theirs = plain.judge(*arguments, vertical=up.scaled(factor))
             assert overturned == ours.overturned == theirs.overturned
             np.testing.assert_allclose(ours.peak, theirs.peak, rtol=0, atol=1e-6 * 0.165)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared import plain
 from tests.cases import RECORDS
 from topheavy.outcomes import minimum, search
-from topheavy.second import reference
 
 EL_CENTRO = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
 PIER = th.Column(0.8, 4.8)
@@ -38,7 +38,7 @@ def test_an_interval_narrower_than_four_steps_is_the_minimum(pier):
     assert pier.acceleration == pytest.approx(0.6272, abs=1e-4)
 
 
-@pytest.mark.parametrize("judged", [th.judge, reference.judge], ids=["Taylor", "SciPy"])
+@pytest.mark.parametrize("judged", [th.judge, plain.judge], ids=["Taylor", "plain"])
 def test_both_solvers_have_the_narrow_interval(pier, judged):
     ends = zip((*pier.bracket, *pier.upper), (-1e-7, 1e-7, -1e-7, 1e-7), strict=True)
     fell = [judged(PIER, EL_CENTRO.scaled(at + off)).overturned for at, off in ends]

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared import plain
 from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.outcomes.search import SURVIVES, intervals_of_many, outcomes_by, subjects_of
-from topheavy.second import reference
 
 BLOCK, COLUMN = th.RockingBlock(2.0, 0.25, 0.9), th.Column(0.5, 2.0)
 LINEAR = th.RockingBlock(1.0, 0.25, 0.9, linearised=True)  # of Zhang & Makris (2001)
@@ -263,7 +263,7 @@ def test_cells_of_a_block_are_those_of_judge_and_of_scipy(block):
         for j, peak in enumerate(PEAKS[2:]):
             motion = MINE.scaled(peak / MINE.peak_acceleration)
             here = (bool(outcomes.overturned[i, j]), int(outcomes.impacts[i, j]))
-            for judged in (th.judge, reference.judge):
+            for judged in (th.judge, plain.judge):
                 end = judged(other, motion)
                 assert (end.overturned, end.impacts) == here
     assert outcomes.attrs["linearised"] == block.linearised

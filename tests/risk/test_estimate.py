@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared import plain
 from topheavy import Column, Pulse, Record, fragility
-from topheavy.second import reference
 
 PIER = th.Column(0.25, 1.5)
 STRUCTURES = {
@@ -45,7 +45,7 @@ def test_outcomes_are_those_of_scipy(ensemble):
         record = MOTIONS[motion].scaled(LEVELS[level] / MOTIONS[motion].peak_velocity)
         assert record.peak_velocity == pytest.approx(LEVELS[level])
         structure = list(STRUCTURES.values())[place]
-        other = reference.judge(structure, record).overturned
+        other = plain.judge(structure, record).overturned
         assert ensemble.outcomes[motion, place, level] == other
         compared.add(bool(other))
     assert compared == {False, True}
@@ -79,7 +79,7 @@ def test_vertical_component_of_each_motion_acts_with_it(ensemble, scale_vertical
         for place, structure in enumerate(STRUCTURES.values()):
             for level, (factor, lift) in enumerate(zip(factors, lifts, strict=True)):
                 arguments = (structure, motion.scaled(factor))
-                judges = [th.judge, reference.judge] if place == number == 1 else [th.judge]
+                judges = [th.judge, plain.judge] if place == number == 1 else [th.judge]
                 for judge in judges:
                     truth = judge(*arguments, vertical=up.scaled(lift)).overturned
                     assert outcomes[number, place, level] == truth

@@ -14,7 +14,7 @@ from scipy.optimize import isotonic_regression
 
 from replication.step import check, run, truth, value
 from steps.shared.ensemble import Ensemble
-from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
+from steps.shared.plain import beside_a_boundary, check_sample, overturns
 from steps.shared.sweep import (
     FAMILIES,
     models,
@@ -56,7 +56,7 @@ def compute(settings, motions, structures, shards):
                 | {"end": every[0], "end_low": low, "end_high": high}
             )
         benefits += compare(name, settings, ensemble, means[..., level])
-    check_by_scipy(sampled(samples, settings, motions, column))
+    check_sample(sampled(samples, settings, motions, column))
     return {"ends": pd.DataFrame(ends), "benefits": pd.DataFrame(benefits)}
 
 

@@ -12,7 +12,7 @@ from scipy.stats import binom
 
 from replication.step import check, run, truth, value
 from steps.shared.ensemble import Ensemble
-from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
+from steps.shared.plain import beside_a_boundary, check_sample, overturns
 from steps.shared.sweep import (
     FREE_FALL,
     VERTICAL,
@@ -33,7 +33,7 @@ COLUMN, FIXED, FRAME = range(3)
 def compute(settings, structures, shards):
     columns = {name: Column(**structures[name]) for name in settings["structures"]}
     column, names = columns[settings["structure"]], sets(settings)
-    check_by_scipy(sampled(shards, settings, column))
+    check_sample(sampled(shards, settings, column))
     tables = {name: [] for name in ("probabilities", "sensitivity", "gains", "pairs")}
     tables |= {"fragility": [], "rotations": []}
     for model in models(settings):

@@ -10,7 +10,7 @@ from itertools import combinations, product
 import numpy as np
 
 from replication.step import check, geometric, run, truth
-from steps.shared.second import NUDGE, check_by_scipy
+from steps.shared.plain import NUDGE, check_sample
 from topheavy import Capacity, Column, RockingFrame, overturned_by, read_record
 
 
@@ -36,7 +36,7 @@ def compute(settings, solver, structures, components):
                 | {"only_heavier": ((one == -1) & (other == 1)).sum()}
             )
     at = np.linspace(0, len(edges) - 1, settings["checked"]).astype(int)
-    check_by_scipy(edges[place] for place in at)
+    check_sample(edges[place] for place in at)
     spec, column = settings["capacity"], Column(**structures[settings["capacity"]["structure"]])
     records = map(read_record, components)
     return {"table": rows, "capacity": [*capacities(spec, column, records, solver["tightened"])]}

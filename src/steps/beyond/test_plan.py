@@ -7,11 +7,11 @@ import pandas as pd
 from scipy.special import bdtr, ndtr
 
 from replication.step import check, run, value
+from steps.shared import plain
 from topheavy import Column, Pulse, RockingFrame, judge, overturning_intervals
-from topheavy.second import reference
 
 HIGHEST, RESOLUTION = 40.0, 0.01  # over g tan α, of the search for minima
-SOLVERS = judge, reference.judge
+SOLVERS = judge, plain.judge
 
 
 def compute(settings):

@@ -13,15 +13,15 @@ from typing import Any
 import pandas as pd
 
 from replication.step import check, grid, truth
+from steps.shared import plain
 from steps.shared.spectrum import FRAME, line
 from topheavy import judge
 from topheavy.outcomes.search import intervals_of_many
-from topheavy.second import reference
 
 SHAPE = "one-sine"
 PLACE = ["cycles", "slenderness_deg", "frequency_ratio"]
 TOGETHER = 100  # lines that are searched in the same calls of the kernel
-ASIDE = 1e-4  # of an end of an interval: where the second solver judges
+ASIDE = 1e-4  # of an end of an interval: where the plain solver judges
 
 
 def minima(settings: Mapping[str, Any]) -> pd.DataFrame:
@@ -79,7 +79,7 @@ def falls(table: pd.DataFrame, pairs: list[tuple[float, float]]) -> pd.DataFrame
 
 
 def check_falls(exceptions: pd.DataFrame) -> None:
-    """Check the largest exceptions by the second solver, at both ends of each minimum."""
+    """Check the largest exceptions by the plain solver, at both ends of each minimum."""
     for _, row in (
         exceptions.sort_values("fall").groupby(["cycles", "lighter", "heavier"]).tail(1).iterrows()
     ):
@@ -92,7 +92,7 @@ def check_falls(exceptions: pd.DataFrame) -> None:
             block, pulse = one_line(
                 int(row.cycles), row.slenderness_deg, row.frequency_ratio, gamma
             )
-            both = {one(block, pulse.scaled(factor)).overturned for one in (judge, reference.judge)}
+            both = {one(block, pulse.scaled(factor)).overturned for one in (judge, plain.judge)}
             check(both == {expected}, f"{dict(row)}: γ = {gamma:g} at {factor:.9g}: {both}")
 
 

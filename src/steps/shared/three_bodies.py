@@ -31,10 +31,12 @@ from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
 from topheavy.ground.excitation import Excitation, Segment, checked_excitation, zero_acceleration
 from topheavy.ground.records import Record
 from topheavy.ground.vertical import with_vertical
-from topheavy.second.motion import REST_PEAK
 
 TOLERANCE = 1e-12
 """Of the integration, relative to the size of a motion as large as α."""
+
+REST_PEAK = 1e-6
+"""Over α: a frame whose next bounce peaks below this may have come to rest."""
 
 LARGEST_GAP = 1e-6
 """Of R: bodies further than this from upright, when a column is, have lost their contacts."""
@@ -341,7 +343,7 @@ def _comes_to_rest(
 ) -> bool:
     """Return whether the bounces that start here are negligible and provably die out.
 
-    As in `second.motion`: at the restoring acceleration d a bounce lasts 2 θ̇/d, and the train of
+    At the restoring acceleration d a bounce lasts 2 θ̇/d, and the train of
     them 2 θ̇/d(1 − ratio); it is over when d keeps above a half of its value for twice that long.
     """
     now, gravity = abs(segments[0].acceleration(motion.time)), segments[0].gravity(motion.time)

@@ -107,7 +107,7 @@ def simulate(
     Notes
     -----
     Taylor steps whose turning points and impacts are proven by the signs of Bernstein coefficients
-    (`topheavy.kernel`). `topheavy.second.reference.simulate` is the second, independent solver.
+    (`topheavy.kernel`). src/audit.py of the repository is an independent, plain solver.
 
     Examples
     --------

@@ -6,9 +6,9 @@ import warnings
 import numpy as np
 import pytest
 
+from steps.shared import plain
 from topheavy import STANDARD_GRAVITY, Column, Record, judge, overturned_by, simulate
 from topheavy.ground.records import acceleration_in_g
-from topheavy.second import reference
 
 SAMPLES = (0.1, -0.2, 0.4, 0.0, -0.3)
 FIVE = Record(0.02, np.array(SAMPLES), name="five samples")
@@ -126,10 +126,10 @@ def test_record_that_is_hardly_a_ground_motion_warns_with_its_number(step, sampl
 @pytest.mark.parametrize("line", [-0.0078, 0.001 + 0.002 * TIME])
 def test_offset_and_drift_are_removed(line):
     shifted = Record(0.01, MOTION + line, "shifted", start=1.0)
-    level, plain = shifted.detrended(), Record(0.01, MOTION)
+    level, whole = shifted.detrended(), Record(0.01, MOTION)
     assert (level.name, level.start, level.time_step) == ("shifted", 1.0, 0.01)
-    np.testing.assert_allclose(level.acceleration, plain.detrended().acceleration)
-    assert level.peak_velocity == pytest.approx(plain.peak_velocity, rel=0.01)
+    np.testing.assert_allclose(level.acceleration, whole.detrended().acceleration)
+    assert level.peak_velocity == pytest.approx(whole.peak_velocity, rel=0.01)
     with warnings.catch_warnings(action="error"):
         Record(0.01, level.acceleration)
 
@@ -138,10 +138,10 @@ def test_components_that_start_at_different_times_are_refused_together():
     column = Column.of_dimensions(width=1.6, height=8.0)
     across, same, late = (Record(0.01, MOTION, start=start) for start in (10.0, 10.004, 12.0))
     says = "excitation starts at 10 s, vertical at 12 s; expected the same"
-    for solve in (simulate, judge, reference.simulate):
+    for solve in (simulate, judge, plain.simulate):
         with pytest.raises(ValueError, match=says):
             solve(column, across, vertical=late)
     with pytest.raises(ValueError, match=says):
         overturned_by(column, across, [1.0], vertical=late.scaled(0.5))
-    plain = Record(0.01, MOTION)
-    assert judge(column, across, vertical=same) == judge(column, plain, vertical=plain)
+    whole = Record(0.01, MOTION)
+    assert judge(column, across, vertical=same) == judge(column, whole, vertical=whole)

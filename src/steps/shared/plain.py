@@ -1,0 +1,164 @@
+"""The plain solver, `src/audit.py`, on the library's structures and ground motions; and samples.
+
+A sample of the outcomes of a rule is computed again: beside a change of outcome, and where the
+Taylor solver is sure.
+"""
+
+import math
+from collections.abc import Callable, Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+import audit
+from replication.step import check
+from topheavy import Pulse, Record, Response, RockingBlock
+from topheavy import judge as judge_by_taylor
+from topheavy.bodies.free_rocking import Ending
+from topheavy.bodies.response import initial_motion, sample_times
+from topheavy.bodies.structures import Structure, as_block
+from topheavy.ground.excitation import Excitation, checked_excitation
+from topheavy.ground.vertical import both_records, refuse_fall
+
+NEAR = 1e-3  # of a factor on a motion: how far a change of outcome is at most
+FREE = 60.0  # over p: in which what loses a tenth of its speed at impacts comes to rest
+NUDGE = 1e-9  # of a motion: no measurement resolves it
+
+Cell = tuple[RockingBlock, Record, Record | None, float, bool]
+"""A structure, a motion and its vertical component, the factor on both, whether it overturns."""
+
+
+def ground_of(
+    excitation: Excitation | None, vertical: Record | None = None, duration: float | None = None
+) -> tuple[audit.Ground, float, float]:
+    """Return a ground motion of the audit, up to a duration, with its amplitude (g) and ω."""
+    if vertical is not None:
+        both_records(excitation, vertical)
+        refuse_fall(vertical)
+    if excitation is None:
+        return audit.QUIET, 0.0, 1.0
+    checked_excitation(excitation, ends=duration is None)
+    amplitude, omega = 1.0, 1.0
+    if isinstance(excitation, Pulse):
+        amplitude, omega = excitation.amplitude, excitation.angular_frequency
+        if excitation.shape == "harmonic":
+            cycles = math.ceil(omega * duration / (2.0 * math.pi))
+            ground = audit.pulse("one-sine", cycles)
+        else:
+            ground = audit.pulse(excitation.shape, excitation.cycles)
+    else:
+        ground = _lines(excitation, vertical)
+    if duration is not None and omega * duration < ground.corners[-1]:
+        corners = ground.corners[ground.corners < omega * duration]
+        ground = ground._replace(corners=np.append(corners, omega * duration))
+    return ground, amplitude, omega
+
+
+def _lines(record: Record, vertical: Record | None) -> audit.Ground:
+    """Return records of one time step, without the zeros at their end."""
+    parts = [record.acceleration, np.zeros(2) if vertical is None else vertical.acceleration]
+    if vertical is not None and vertical.time_step != record.time_step:
+        raise ValueError(
+            f"time steps are {record.time_step:g} s and {vertical.time_step:g} s; expected the same"
+        )
+    moving = [np.trim_zeros(part, "b") for part in parts]
+    size = max(2, *(min(one.size + 1, part.size) for one, part in zip(moving, parts, strict=True)))
+    both = [np.pad(part, (0, max(0, size - part.size)))[:size] for part in parts]
+    return audit.record(both[0], record.time_step, both[1])
+
+
+def _body(block: RockingBlock) -> audit.Body:
+    return audit.Body(block.frequency_parameter, block.slenderness, block.restitution)
+
+
+def judge(
+    structure: Structure, excitation: Excitation, *, vertical: Record | None = None
+) -> Ending:
+    """Return how the response to a ground motion ends, as `topheavy.judge`."""
+    block = as_block(structure)
+    ground, amplitude, omega = ground_of(excitation, vertical)
+    end = audit.follow([_body(block)], amplitude, ground, omega, block.linearised)
+    return Ending(bool(end.overturned[0]), float(end.peak[0]), int(end.hits[0]))
+
+
+def simulate(
+    structure: Structure,
+    excitation: Excitation | None = None,
+    *,
+    rotation: float = 0.0,
+    velocity: float = 0.0,
+    duration: float | None = None,
+    samples: int | ArrayLike = 1000,
+    vertical: Record | None = None,
+    leap: Callable | None = None,
+) -> Response:
+    """Return the response, as `topheavy.simulate`; `leap` integrates a step in another way.
+
+    A number of samples lies between 0 and the duration, or `FREE` of free rocking after the ground
+    motion. The impacts are those until the last sample, or until the outcome is known.
+    """
+    block, times = as_block(structure), sample_times(samples)
+    theta, rate = initial_motion(block, rotation, velocity)
+    ground, amplitude, omega = ground_of(excitation, vertical, duration)
+    if isinstance(times, int):
+        free = FREE / block.frequency_parameter
+        times = np.linspace(0.0, duration or ground.corners[-1] / omega + free, times)
+    motion = audit.follow(
+        [_body(block)],
+        amplitude,
+        ground,
+        omega,
+        block.linearised,
+        (theta, rate / block.frequency_parameter),
+        omega * times,
+        leap,
+    )
+    outcome = "rocking" if motion.velocity[0, -1] or motion.rotation[0, -1] else "rests"
+    if not motion.peak[0]:
+        outcome = "no uplift"
+    return Response(
+        time=times,
+        rotation=motion.rotation[0],
+        velocity=motion.velocity[0] * block.frequency_parameter,
+        impacts=np.array(motion.impacts[0]) / omega,
+        outcome="overturned" if motion.overturned[0] else outcome,
+        number_of_impacts=int(motion.hits[0]),
+        peak_rotation=float(motion.peak[0]),
+    )
+
+
+def overturns(block: RockingBlock, record: Record, up: Record | None, factor: float) -> bool:
+    """Return whether a motion times a factor overturns a structure, by the Taylor solver."""
+    return judge_by_taylor(
+        block, record.scaled(factor), vertical=up and up.scaled(factor)
+    ).overturned
+
+
+def beside_a_boundary(overturns: Callable[[float], bool], factor: float) -> float:
+    """Return a factor with the outcome of this one, within NEAR of one with the other outcome."""
+    outcome, other = overturns(factor), factor
+    while overturns(other) == outcome:
+        factor, other = other, other * (0.9 if outcome else 1.1)
+    while abs(other / factor - 1.0) > NEAR:
+        middle = math.sqrt(factor * other)
+        if overturns(middle) == outcome:
+            factor = middle
+        else:
+            other = middle
+    return factor
+
+
+def check_sample(cells: Iterable[Cell]) -> None:
+    """Stop the step unless the plain solver has the same outcomes.
+
+    Those that a nudge of the motion changes are not compared.
+    """
+    compared = differ = 0
+    for block, record, up, factor, fell in cells:
+        near = [overturns(block, record, up, factor * (1.0 + by)) for by in (-NUDGE, 0.0, NUDGE)]
+        if all(near) or not any(near):
+            ending = judge(block, record.scaled(factor), vertical=up and up.scaled(factor))
+            compared, differ = compared + 1, differ + (ending.overturned != fell)
+    text = f"the plain solver has {differ} of {compared} outcomes otherwise"
+    print(text, flush=True)
+    check(compared > 0 and differ == 0, text)
