@@ -6,7 +6,7 @@ integration is necessary. With φ = |θ| and φ' = φ̇/p,
     e = φ'²/2 + w(φ),    w = cos(α − φ) − cos α  (exact),    w = φ (α − φ/2)  (linearised)
 
 where w is the area under the moment–rotation curve of Fig. 1(b). Its summit is at φ = α. An impact
-multiplies e by r. The kernel compiles these functions, and the SciPy solver calls them as they are.
+multiplies e by r. The kernel compiles these functions.
 """
 
 from __future__ import annotations

@@ -39,9 +39,6 @@ def checked_excitation(value: Any, *, ends: bool = False) -> Excitation:
 _MAX_ITERATIONS = 10_000
 """A root at 1e-16 s in a bracket from 0 to 1 s takes more than SciPy's default of 100."""
 
-_ROUNDING = 1e-6
-"""Relative; more than rounding can change the |a| at the end of a segment."""
-
 
 def sign_change(function: Callable[[float], float], low: float, high: float) -> float:
     """Return where a function changes its sign between `low` and `high`, to 1e-15 relative."""
@@ -117,11 +114,6 @@ class Lines(Sequence[Segment]):
     def __getitem__(self, at: int | slice) -> Segment | list[Segment]:
         places = range(len(self))[at]
         return self._make(places) if isinstance(places, int) else list(map(self._make, places))
-
-    def next_above(self, level: float, number: int) -> int:
-        """Return the first segment from `number` on in which |a| may exceed a level, or the end."""
-        above = self._largest[number:] > (1.0 - _ROUNDING) * level
-        return number + int(above.argmax()) if above.any() else len(self)
 
 
 class Excitation(ABC):
