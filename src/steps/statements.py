@@ -4,7 +4,7 @@ import numpy as np
 import sympy as sp
 
 from replication.step import check, power_above, run, truth
-from steps.shared.three_bodies import TOLERANCE, simulate_three_bodies
+from steps.shared.three_bodies import simulate_three_bodies
 from topheavy import (
     STANDARD_GRAVITY,
     Cap,
@@ -21,8 +21,10 @@ from topheavy.derivation.motion import cap_motion
 from topheavy.derivation.notation import NEGATIVE, POSITIVE, acceleration, read, vanishes
 from topheavy.derivation.printed import EQUATIONS, rectangular_column
 from topheavy.forces.contact import forces_at
+from topheavy.kernel.step import TOLERANCE
 
 AGREE = 1e-6  # of α, of √r and of the weight: what two integrations may differ by
+ROUNDING = 1e-14  # of lengths over R
 CLOSE = 1e-8  # of a number that two formulas give
 SMALLEST = 1e-3  # of α: forces are compared beyond this rotation, away from impacts
 SMALLEST_BOUNCE = 1e-5  # of p̂ α: the last bounces before rest, which both cut off, are left out
@@ -134,7 +136,7 @@ def oscillator(frame, pulse):
     nearly, limit = RockingFrame(column, 1e9).block().linear(), simplified(frame, "all")
     for name in ("frequency_parameter", "restitution"):
         apart = abs(getattr(nearly, name) / getattr(limit, name) - 1.0)
-        yield "massless_columns_are_a_limit", name, apart
+        yield "massless_columns_are_a_limit", name, power_above(apart, TOLERANCE)
 
 
 def structure(column, mass_ratios):
@@ -147,7 +149,8 @@ def structure(column, mass_ratios):
         column_outline(column, theta)[seat] - at_rest[seat]
         for theta, seat in zip(rotations, seats, strict=True)
     ]
-    yield "cap_stays_on_its_seats", "gap over R", np.abs(corners - moved).max() / column.size
+    gap = np.abs(corners - moved).max() / column.size
+    yield "cap_stays_on_its_seats", "gap over R", power_above(gap, ROUNDING)
 
     for gamma in mass_ratios:  # the weight of the cap beam acts at the height of the column tops
         height = (1.0 + 2.0 * gamma) / (1.0 + gamma) * column.half_height
