@@ -165,7 +165,7 @@ def test_job_that_dies_leaves_no_old_picture(finished, edited):
             "paper/claims.yaml",
             "{allen[factor]}",
             "{allen[facter]}",
-            "claim tiny_positive has {config:allen.facter}, which is no key of the config; expected",
+            "claim tiny_positive has {config:allen.facter}, which is no key of the config",
         ),
         ("config/config.yaml", "relative: ", "relatve: ", "did you mean 'relative'?"),
     ],
