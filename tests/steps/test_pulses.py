@@ -12,6 +12,7 @@ from PIL import Image
 import topheavy as th
 from replication.config import read_config
 from replication.sections import Paper
+from replication.step import findings_text
 from steps import animation, proven, spectra, spectra_shard, uplift, vase
 from steps.shared import cycles
 from steps.shared.histories import history
@@ -169,6 +170,7 @@ def test_minimum_falls_under_three_cycles_of_a_sine(ratio, known):
     assert table.minimum.to_list() == pytest.approx([known[one] for one in gammas], abs=5e-4)
     found = cycles.finding(table, settings)
     assert broken(found) == {"cycles_rise_with_mass"}
+    assert findings_text(found, cycles.finding)  # which an infinite γ stops
     light, heavy = known[gammas[1]], known[gammas[2]]
     assert found["cycles_rise_with_mass"]["fall_3"] == pytest.approx(1.0 - heavy / light, abs=3e-4)
     narrow = table.assign(wide_minimum=math.inf)

@@ -124,6 +124,6 @@ def largest(exceptions: pd.DataFrame) -> dict[str, Any]:
     }
     for number, rows in exceptions.groupby("cycles"):
         row = rows.loc[rows.fall.idxmax()]
-        for name in ("fall", "frequency_ratio", "lighter", "heavier", "of_lighter", "minimum"):
-            more[f"{name}_{number}"] = float(f"{row[name]:.9g}")
+        more |= {f"{name}_{number}": row[name] for name in ("fall", "frequency_ratio", "minimum")}
+        more |= {f"{name}_{number}": f"{row[name]:g}" for name in ("lighter", "heavier")}
     return more
