@@ -3,19 +3,23 @@
 from palette import ALONE, EQUAL, tint
 
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, sheet
+from topheavy import Column
 
 SETS = {"near-fault": ("o", 0.14), "broadband": ("s", -0.14)}  # marker, and place in a row
 
 
 def words(lowered, reduction):
     """Return the label of a row of the table."""
-    return f"{lowered} {100 * reduction:g} % lower" if reduction else f"{lowered} of Eq. (25)"
+    if reduction:
+        return f"{lowered} {100 * reduction:g} % lower"
+    return "both of Eq. (25)" if lowered == "both" else lowered
 
 
 def draw(break_even, break_even_benefit, config):
     figure, axes = sheet(DOUBLE, 62, ncols=2)
     rows = break_even_benefit.set_index(["set", "lowered", "reduction"])
-    keys = sorted({key[1:] for key in rows.index}, reverse=True)  # from the lowest row upwards
+    keys = [*dict.fromkeys(key[1:] for key in rows.index)]  # from the lowest row upwards
+    keys.sort(key=lambda key: (key[0] != "column alone", key[0] != "both", -key[1]))
     for name, (marker, off) in SETS.items():
         for at, key in enumerate(keys):
             row = 100 * rows.loc[(name, *key), ["benefit", "benefit_low", "benefit_high"]]
@@ -32,8 +36,11 @@ def draw(break_even, break_even_benefit, config):
         how = {"color": INK, "markerfacecolor": face, "markersize": 4, "elinewidth": 1.1}
         axes[1].errorbar(places, 100 * of.end, yerr=errors, fmt=marker, **how)
     low, high = (100 * share for share in config["break_even"]["measured"])
-    axes[1].axhspan(low, high, color=tint(GREY, 0.25), lw=0)
-    note(axes[1], "measured on single blocks", (1.5, 0.5 * (low + high)), ha="center", fontsize=7)
+    column = Column(**config["structures"][config["motions"]["structure"]])
+    lossless = 100 * (1 - 1 / column.restitution)
+    for ends, text in (((low, high), "lower"), ((lossless, 0.0), "higher")):
+        axes[1].axhspan(*ends, color=tint(GREY, 0.25), lw=0)
+        note(axes[1], f"measured: {text}", (1.5, sum(ends) / 2), ha="center", fontsize=7)
     note(axes[1], "above a point: column safer", (1.5, 13.5), color=ALONE, ha="center")
     note(axes[1], "below a point: frame safer", (1.5, 1.2), color=EQUAL, ha="center")
     axes[0].axvline(0.0, color=GREY, linewidth=0.7)
@@ -45,7 +52,7 @@ def draw(break_even, break_even_benefit, config):
     axes[0].tick_params(axis="y", length=0)
     velocities = sorted(break_even.velocity.unique())
     axes[1].set_xticks(range(len(velocities)), [f"{each:g}" for each in velocities])
-    axes[1].set(xlim=(-0.5, len(velocities) - 0.5), ylim=(0, 14.5))
+    axes[1].set(xlim=(-0.5, len(velocities) - 0.5), ylim=(lossless - 0.5, 14.5))
     axes[1].set_xlabel("Peak ground velocity (m/s)")
     axes[1].set_ylabel(r"Reduction of the column's $\sqrt{r}$ (%)")
     letter(
