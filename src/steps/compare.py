@@ -55,20 +55,21 @@ def compare(
             if not theirs.is_file():
                 verdict = "not published"
             elif _inputs(known) != _inputs(rule):
-                verdict = f"other parameters of {name}"
+                verdict = "other parameters"
             else:
                 tables = pd.read_csv(path), pd.read_csv(theirs)
                 columns = list(departures(*tables, bounds, rule["params"].get("counts", ())))
                 verdict = "differs" if columns else "agrees"
             rows.append(
                 {
+                    "rule": name,
                     "table": path,
                     "published": str(theirs),
                     "verdict": verdict,
                     "departs": "; ".join(columns),
                 }
             )
-    return pd.DataFrame(rows, columns=["table", "published", "verdict", "departs"])
+    return pd.DataFrame(rows, columns=["rule", "table", "published", "verdict", "departs"])
 
 
 def _inputs(rule: Mapping) -> str:

@@ -31,13 +31,10 @@ def faults(rows: list[dict], comparison: list[dict]) -> list[str]:
 def summary(rows: list[dict], comparison: list[dict]) -> str:
     """Return the last lines of a run: counts of verdicts, faults, and where results lie."""
     agree = sum(table["verdict"] == "agrees" for table in comparison)
-    rest = [
-        f"{Path(table['table']).name} ({table['verdict']})"
-        for table in comparison
-        if table["verdict"] not in ("agrees", "differs")
-    ]
     line = f"tables: {agree} of {len(comparison)} agree with the published ones"
-    line += f"; not compared: {', '.join(rest)}" if rest else ""
+    for reason in ("other parameters", "not published"):
+        rules = dict.fromkeys(t["rule"] for t in comparison if t["verdict"] == reason)
+        line += f"; not compared ({reason}): those of {', '.join(rules)}" if rules else ""
     return "\n".join([*counts(rows), line, *faults(rows, comparison), PLACES]) + "\n"
 
 
