@@ -50,12 +50,18 @@ lint: | $(UV) ## check style, types, spelling and the rules; changes nothing
 	$(UV) export --locked --no-dev $(EXPORT) | cmp - requirements.txt
 EXPORT = --no-hashes --no-header --no-annotate --no-emit-project
 
-study: ## begin a study: make study NAME=bridge (studies/FOLLOW-UP.md)
-	@expr "$(NAME)" : '[a-z][a-z0-9_]*$$' >/dev/null || { echo "NAME is '$(NAME)'; expected lower case, digits, _"; exit 1; }
-	@test ! -e studies/$(NAME) || { echo "studies/$(NAME) is there already"; exit 1; }
-	@mkdir studies/$(NAME) && cd studies/example && for file in *.py *.smk *.typ *.yaml; do \
-	  sed 's/example/$(NAME)/g' "$$file" > ../$(NAME)/"$$file"; done
-	@sed -i.old 's/^studies: \[\(.*\)\]/studies: [\1, $(NAME)]/' config/config.yaml && rm config/config.yaml.old
+study: | $(UV) ## copy studies/bent, as a repository of its own: make study DIR=../bridge NAME=bridge
+	@expr "$(NAME)" : '[a-z][a-z0-9_]*$$' >/dev/null && case "$(NAME)" in results|dist|wheels|tests|topheavy) false;; esac || \
+	  { echo "NAME is '$(NAME)'; expected lower case, digits, _, and none of results, dist, wheels, tests, topheavy"; exit 1; }
+	@test -n "$(DIR)" && test ! -e "$(DIR)" || { echo "DIR is '$(DIR)'; expected the path of a new folder"; exit 1; }
+	@mkdir "$(DIR)" && cp LICENSE .gitignore data/records/el_centro_1940_NS.AT2 "$(DIR)"
+	@tar -C studies/bent --exclude results --exclude '.snakemake' --exclude __pycache__ -c . | tar -C "$(DIR)" -x
+	@$(UV) build --quiet --wheel --no-create-gitignore --out-dir "$(DIR)/wheels"
+	@cd "$(DIR)" && sed -i.old 's|"bent"|"$(NAME)"|; s|path = "../.."|path = "$(WHEEL)"|' pyproject.toml && \
+	  sed -i.old 's|../../data/records/||' config.yaml && sed -i.old 's|bent$$|$(NAME)|' README.md CITATION.cff && rm *.old
+	@$(UV) lock --quiet --project "$(DIR)"
+	@ls -A "$(DIR)" && echo "Next: cd $(DIR) && uv run snakemake --cores 2"
+WHEEL = wheels/topheavy-$(shell sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml)-py3-none-any.whl
 
 publish: | $(UV) ## copy the results of a run to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
@@ -74,7 +80,7 @@ cluster-test: | $(UV) ## as root on Debian: the shards on a SLURM of one node gi
 	@$(RUN) --group cluster profiles/slurm/test
 
 clean: ## remove what the workflow and the tools wrote; keep the environment
-	rm -rf results dist .snakemake figures/*.svg studies/*/*.svg paper/*.pdf .*_cache .hypothesis
+	rm -rf results dist .snakemake figures/*.svg studies/*/results studies/*/.snakemake paper/*.pdf .*_cache .hypothesis
 
 .uv/bin/uv:
 	@$(PYTHON) -m venv --clear .uv || { echo "On Debian: apt install python3-venv"; rm -rf .uv; exit 1; }

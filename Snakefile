@@ -1,8 +1,7 @@
 """Makris & Vassiliou (2014): config → tables → findings → verdicts, figures, documents.
 
 A rule names its script, inputs, outputs, and as parameters its code and its section of the config.
-A change of one of them repeats the rule, also when a file has an older time. A study is a folder in
-studies/, named in `studies`.
+A change of one of them repeats the rule, also when a file has an older time.
 """
 
 import os
@@ -129,7 +128,6 @@ for path in ["config/config.yaml", *workflow.configfiles]:
 PAPER = read_config(
     " over ".join(map(os.path.relpath, workflow.configfiles)), Paper, config
 )
-SETTINGS = {"paper": PAPER}  # each study adds its own
 
 if os.path.isdir("results") and not os.path.isdir(".snakemake/metadata"):
     sys.exit(
@@ -139,17 +137,6 @@ if os.path.isdir("results") and not os.path.isdir(".snakemake/metadata"):
 
 include: "rules/paper.smk"
 include: "rules/beyond.smk"
-
-
-for study in PAPER["studies"]:
-    if not os.path.isfile(f"studies/{study}/study.smk"):
-        sys.exit(
-            f"config/config.yaml: studies has {study!r}; expected the name of a folder in studies/"
-        )
-
-    include: f"studies/{study}/study.smk"
-
-
 include: "rules/documents.smk"
 
 

@@ -1,10 +1,9 @@
 """What follows from all results: figures, notebooks, verdicts, comparison, article and supplement."""
 
-CLAIMS = {"paper/claims.yaml": PAPER} | {
-    f"studies/{study}/claims.yaml": SETTINGS[study] for study in PAPER["studies"]
-}
-for path, known in CLAIMS.items():
-    read_claims(path, known)  # before any job: a misspelt key, a number that is no key
+CLAIMS = {"paper/claims.yaml": PAPER}
+read_claims(
+    "paper/claims.yaml", PAPER
+)  # before any job: a misspelt key, a number that is no key
 BEYOND = [
     "motions",
     "break_even",
@@ -163,7 +162,6 @@ for document in ["report", "supplement"]:
             made(".csv"),
             made(".json"),
             sources=glob("paper/*.typ") + ["paper/references.bib", "CITATION.cff"],
-            sections=[f"studies/{study}/section.typ" for study in PAPER["studies"]],
             captions="figures/captions.yaml",
             source=f"paper/{document}.typ",
         output:
@@ -174,7 +172,6 @@ for document in ["report", "supplement"]:
             f"results/benchmarks/{document}.tsv"
         params:
             code=code("src/steps/typeset.py", rule=document),
-            studies=PAPER["studies"],
             config=PAPER,
         message:
             f"Compiling the {document}"

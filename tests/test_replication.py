@@ -4,6 +4,7 @@ import math
 import sys
 from functools import reduce
 from operator import getitem
+from textwrap import indent
 from types import SimpleNamespace
 
 import pandas as pd
@@ -113,9 +114,8 @@ def test_number_has_the_digits_that_its_tolerance_or_error_justifies(
 
 
 def ledger(tmp_path, text):
-    path = tmp_path / "bridge" / "claims.yaml"
-    path.parent.mkdir(exist_ok=True)
-    path.write_text(text, encoding="utf-8")
+    path = tmp_path / "claims.yaml"
+    path.write_text("ours:\n" + indent(text, " "), encoding="utf-8")
     return str(path)
 
 
@@ -132,7 +132,7 @@ OTHER = "- {id: stands, where: a, statement: b, expected: not tested}\n"
 
 def test_statement_has_the_numbers_of_its_config(tmp_path):
     (claim,) = read_claims(ledger(tmp_path, GOOD), {"scale": 1.3})
-    assert (claim.statement, claim.part) == ("It survives 1.3 times.", "bridge")
+    assert (claim.statement, claim.part) == ("It survives 1.3 times.", "ours")
     row = judged(claim, {"run": {"good": truth(True)}})
     assert (row["verdict"], unexpected([row])) == ("confirmed", [])
 
@@ -171,7 +171,7 @@ def test_brace_that_names_nothing_is_text(tmp_path):
         ("confirmed", "confirmed\n  part: ours", "'part': Extra inputs are not permitted"),
         ("{scale}", "{scale:zz}", "claim stands: Unknown format code 'z'"),
         (GOOD, "text", "claims.yaml has 'text'; expected a list of claims"),
-        (GOOD, "- text", "claim number 1 of bridge: "),
+        (GOOD, "- text", "claim number 1 of ours: "),
     ],
 )
 def test_mistake_in_a_claim_is_named(tmp_path, old, new, message):

@@ -21,8 +21,7 @@ CONFIG = read_yaml(str(ROOT / "config/config.yaml"))
 def folder(tmp_path_factory):
     """Return a folder with the texts, and results as the published tables give them."""
     folder = tmp_path_factory.mktemp("documents")
-    for name in ("paper", "studies"):
-        shutil.copytree(ROOT / name, folder / name)
+    shutil.copytree(ROOT / "paper", folder / "paper")
     shutil.copy(ROOT / "CITATION.cff", folder)
     shutil.copytree(REFERENCE, folder / "results/tables")
     (folder / "results/findings").mkdir()
@@ -35,7 +34,7 @@ def folder(tmp_path_factory):
 
 def typeset(folder, document, config=CONFIG):
     captions = str(ROOT / "figures/captions.yaml")
-    texts = texts_of(config, CONFIG["studies"], captions)
+    texts = texts_of(config, captions)
     return checked(DOCUMENTS[document], texts, str(folder))
 
 

@@ -1,1 +1,1 @@
-"""What the steps, figures and documents of the paper and of every study share."""
+"""What the steps, figures and documents share."""

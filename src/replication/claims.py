@@ -35,7 +35,7 @@ class Entry(Section):
 
 
 class Claim(Entry):
-    """A claim of a list, `part`: paper, ours or a study.
+    """A claim of a list, `part`: paper or ours.
 
     `marked` has statement and remark with the marks of their numbers.
     """
@@ -48,7 +48,7 @@ class Claim(Entry):
 def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
     """Return the claims of a file; {keys} in statement and remark are filled from its config.
 
-    The paper's file has two lists, `paper` and `ours`; a study's file is a list.
+    The file has two lists, `paper` and `ours`.
 
     Raises
     ------
@@ -59,11 +59,9 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
     from replication.verdicts import VERDICTS, tolerance_fault
 
     content = read_yaml(path)
-    study = Path(path).parent.name
-    parts = content if isinstance(content, dict) else {study: content}
-    known = inputs(settings, "config" if isinstance(content, dict) else study)
+    known = inputs(settings)
     claims: list[Claim] = []
-    for part, rows in parts.items():
+    for part, rows in content.items():
         if not isinstance(rows, list):
             raise SystemExit(f"{path} has {rows!r:.40}; expected a list of claims")
         for number, row in enumerate(rows, 1):
@@ -155,10 +153,7 @@ def counts(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     lists: dict[str, list] = {}
     for row in rows:
         lists.setdefault(row["part"], []).append(row)
-    return [
-        f"{TITLES.get(part, 'claims of study ' + part)}: {counted(members)}"
-        for part, members in lists.items()
-    ]
+    return [f"{TITLES[part]}: {counted(members)}" for part, members in lists.items()]
 
 
 def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:

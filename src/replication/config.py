@@ -1,6 +1,5 @@
 """Read YAML and configs: types of their keys, and what is said of a mistake."""
 
-import hashlib
 import re
 from difflib import get_close_matches
 from itertools import pairwise
@@ -91,50 +90,6 @@ class PulseOf(Section):
     shape: Shape
     amplitude: Positive
     period: Positive
-
-
-class Structure(Section):
-    """Columns of width × height (m), one or more of them, and a cap beam by its mass (t)."""
-
-    width: Positive
-    height: Positive
-    columns: Count = 1
-    column_mass: Positive | None = None
-    cap_mass: NotNegative = 0.0
-
-    @model_validator(mode="after")
-    def complete(self) -> "Structure":
-        if self.columns > 1 and self.column_mass is None:
-            raise ValueError(
-                f"{self.columns} columns under a cap beam need column_mass and cap_mass, t"
-            )
-        return self
-
-
-class Motion(Section):
-    """A record: what `read_record` reads, or text with time (s) and acceleration in columns."""
-
-    file: str
-    name: str  # as texts and captions name it
-    unit: str = "g"
-    skip: Annotated[int, Field(ge=0, strict=True)] = 0  # lines above the numbers of a text
-    sha256: str = ""  # of its content, which is a parameter of the rule: a change repeats it
-
-    @model_validator(mode="after")
-    def there(self) -> "Motion":
-        if not Path(self.file).is_file():
-            raise ValueError(
-                f"there is no file {self.file}; expected its path from the root of the repository"
-            )
-        self.sha256 = hashlib.sha256(Path(self.file).read_bytes()).hexdigest()[:12]
-        return self
-
-
-class Study(Section):
-    """What the config of every study may have; a study adds its own keys."""
-
-    structures: dict[str, Structure] = {}
-    records: dict[str, Motion] = {}
 
 
 VERTICAL = re.compile(

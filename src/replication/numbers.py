@@ -66,11 +66,11 @@ class Column:
     {column[temple]:0.5*} is half of both; {column[motions.structures]} takes the names from a key.
     """
 
-    def __init__(self, settings: Mapping[str, Any], name: str, path: str = "") -> None:
-        self.settings, self.name, self.path = settings, name, path
+    def __init__(self, settings: Mapping[str, Any], path: str = "") -> None:
+        self.settings, self.path = settings, path
 
     def __getitem__(self, path: str) -> "Column":
-        return Column(self.settings, self.name, path)
+        return Column(self.settings, path)
 
     def __format__(self, how: str) -> str:
         *keys, names = self.path.split(".")
@@ -80,7 +80,7 @@ class Column:
         form = f"{2 * float(how.rstrip('*') or 1)}*g"
         halves = [
             [
-                f"{Input(self.settings, self.name + ':')['structures'][name][half]:{form}} m"
+                f"{Input(self.settings, 'config:')['structures'][name][half]:{form}} m"
                 for half in ("half_height", "half_width")
             ]
             for name in ([names] if isinstance(names, str) else names)
@@ -94,10 +94,10 @@ def and_list(words: Iterable[str]) -> str:
     return ", ".join(most) + " and " * bool(most) + last
 
 
-def inputs(settings: Mapping[str, Any], name: str = "config") -> dict[str, Any]:
-    """Return what a text may name in braces; `name` is that of the config."""
-    whole = Input(settings, f"{name}:")
-    return {key: whole[key] for key in settings} | {"column": Column(settings, name)}
+def inputs(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a text may name in braces."""
+    whole = Input(settings, "config:")
+    return {key: whole[key] for key in settings} | {"column": Column(settings)}
 
 
 def without_marks(text: str) -> str:

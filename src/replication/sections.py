@@ -63,7 +63,6 @@ class Consistent(Section):
 
 Paper = section(
     Consistent,
-    studies=list[str],
     structures=dict[str, Column],
     solver=section(tightened=Tolerance),
     reproducibility=section(relative=Tolerance, absolute=Tolerance, counts=Count),

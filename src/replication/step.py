@@ -20,7 +20,7 @@ PARENT = os.getppid()
 RUN = int(os.environ.get("RUN", PARENT))
 """The process of Snakemake; the Snakefile sets the variable."""
 ROOT = Path(__file__).resolve().parents[2]
-OURS = ("src", "studies", "figures")
+OURS = ("src", "figures")
 DIGITS = "%.9g"
 
 

@@ -29,8 +29,8 @@ def one(name: str) -> str:
     matches = [row for row in rows if row["id"] == name]
     if not matches:
         raise SystemExit(
-            f"no claim of the last run has the id {name!r}; expected one of paper/claims.yaml or "
-            "of a study; for a new one: make reproduce"
+            f"no claim of the last run has the id {name!r}; expected one of paper/claims.yaml; "
+            "for a new one: make reproduce"
         )
     row = matches[0]
     lines = [f"{name}: {row['verdict']}", f"  {row['where']}: {row['statement']}"]

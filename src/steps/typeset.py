@@ -26,10 +26,9 @@ def captions(path: str, config: dict) -> dict[str, dict]:
     return texts
 
 
-def texts_of(config: dict[str, Any], studies: list[str], captions_of: str) -> dict[str, str]:
+def texts_of(config: dict[str, Any], captions_of: str) -> dict[str, str]:
     """Return what a document takes from the run beside results/."""
     return {
-        "studies": json.dumps(studies),
         "config": yaml.safe_dump(config, allow_unicode=True),
         "captions": json.dumps(captions(captions_of, config)),
     }
@@ -63,6 +62,6 @@ def checked(source: str, texts: dict[str, str], root: str = ".") -> Numbers:
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         source, params = snakemake.input.source, snakemake.params
-        texts = texts_of(params.config, params.studies, snakemake.input.captions)
+        texts = texts_of(params.config, snakemake.input.captions)
         checked(source, texts)
         publish(snakemake, {snakemake.output[0]: compiled(source, texts, pdf_standards=["a-2b"])})

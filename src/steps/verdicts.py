@@ -57,12 +57,12 @@ def reason(row: dict[str, Any]) -> str:
 
 
 def page(rows: list[dict[str, Any]], captions: dict[str, dict], rules: dict[str, dict]) -> str:
-    """Return the page: the paper's claims, ours, those of each study, tables, discrepancies."""
+    """Return the page: the paper's claims, ours, tables, discrepancies."""
     text = [HEAD]
     for part in dict.fromkeys(row["part"] for row in rows):
         own = [row for row in rows if row["part"] == part]
         text += [
-            f"## {TITLES.get(part, 'Study ' + part)}\n",
+            f"## {TITLES[part]}\n",
             counted(own) + ".\n",
             "| claim | verdict | script and figures |",
             "|---|---|---|",

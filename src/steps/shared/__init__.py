@@ -1,1 +1,1 @@
-"""What several steps, and studies, share; of the steps, studies import nothing else."""
+"""What several steps share."""
