@@ -41,15 +41,13 @@ def words(row, whole):
     return f"{name}\n{size} = {ratio:.3g}$\\,R$\n{minimum}"
 
 
-def structures(axis, table):
-    top = 0.0
+def structures(axis, table, top):
     edge, whole = 0.0, table.equivalent_size[table.structure == "column"].iloc[0]
     for row in table.itertuples():
         parts = bodies(row)
         middle = edge - min(left for left, *_ in parts)
         for left, bottom, width, height, face in parts:
             where = (middle + left, bottom)
-            top = max(top, bottom + height)
             axis.add_patch(
                 Rectangle(where, width, height, facecolor=face, edgecolor=INK, linewidth=0.8)
             )
@@ -68,7 +66,7 @@ def structures(axis, table):
     axis.plot(0, 11.5, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
     axis.plot(0, 11.5, ".", color=FORCE, markersize=2)
     note(axis, "centre of gravity", (0.6, 11.5), color=FORCE)
-    axis.set(xlim=(-GAP, edge), ylim=(-10, max(top, 11.5) + 0.6), aspect="equal", anchor="N")
+    axis.set(xlim=(-GAP, edge), ylim=(-10, top + 0.6), aspect="equal", anchor="N")
     axis.axis("off")
 
 
@@ -85,8 +83,11 @@ def moments(axis, table):
 
 
 def draw(four_structures, moment_rotation):
-    figure, (left, right) = sheet(DOUBLE, 70, ncols=2, width_ratios=(2.1, 1))
-    structures(left, four_structures)
+    every = [part for row in four_structures.itertuples() for part in bodies(row)]
+    top = max(11.5, *(bottom + height for _, bottom, _, height, _ in every))
+    tall = 70 * max(1.0, (top + 10) / 23)  # mm, so that words below a high beam keep their places
+    figure, (left, right) = sheet(DOUBLE, tall, ncols=2, width_ratios=(2.1, 1))
+    structures(left, four_structures, top)
     moments(right, moment_rotation)
     letter(
         [left, right],
