@@ -105,11 +105,13 @@ def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
     """A hundredth of the bound is enough, also for a history with samples."""
     there, w = oscillator(block), step.working_array()
     samples = history.Samples(np.empty(0), np.empty((2, 0)), np.empty(1000))
+    rest = 0.0, 0.0, math.inf, samples
 
     def ends(motion):
         method = Method(step.PULSE_ORDER, step.TOLERANCE, history.is_straight(motion.wave))
-        how = (w, method, there, motion, history.NO_RATIOS, history.FROM_REST, samples)
-        return [history.follow.py_func(*how, judged).result for judged in (True, False)]
+        how = w, method, there, motion
+        judged, sampled = history.judge.py_func(*how), history.sample.py_func(*how, *rest)
+        return [judged.result, sampled.result]
 
     bounds = ("MAX_STEPS", "MAX_STEPS_WITH_SAMPLES")
     for bound in bounds:

@@ -158,8 +158,8 @@ def test_derivatives_are_those_of_the_recurrences(rotation, velocity, push, rate
     force = math.sin(rotation) / math.cos(alpha) + push * tilt
     slope = math.cos(rotation) / math.cos(alpha) + push * lean
     ours = derivatives(force, slope, rate * tilt, rate * lean, velocity)
-    theirs = [w[ROTATION, n] * math.factorial(n) for n in range(3, 8)]
-    size = (1 + abs(push) + abs(rate) + abs(velocity)) ** 5
+    theirs = [w[ROTATION, n] * math.factorial(n) for n in range(3, 9)]
+    size = (1 + abs(push) + abs(rate) + abs(velocity)) ** 6
     assert ours == pytest.approx(theirs, rel=1e-12, abs=1e-13 * size)
 
 

@@ -6,7 +6,7 @@ number.
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import pairwise
 from typing import NamedTuple
@@ -19,16 +19,13 @@ from topheavy.ground.shapes import WAVES
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import RECORD, Array, Forcing, Waveform, forcing_of
 from topheavy.kernel.history import (
-    FROM_REST,
-    NO_RATIOS,
-    NO_SAMPLES,
     OVERTURNED,
     UNRESOLVED,
-    Course,
     History,
     Samples,
-    follow,
     is_straight,
+    judge,
+    sample,
 )
 from topheavy.kernel.interrupt import MIN_THREADED_SAMPLES, in_threads
 from topheavy.kernel.step import MAX_STEPS, PULSE_ORDER, TOLERANCE, working_array
@@ -151,7 +148,7 @@ def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results):
         scale, amplitude, vertical = cells.scale[cell], cells.amplitude[cell], cells.vertical[cell]
         forcing = forcing_of(waveform, scale, amplitude, vertical)
         method = Method(cells.order[cell], tolerance, is_straight(waveform.wave))
-        history = follow(w, method, block, forcing, NO_RATIOS, FROM_REST, NO_SAMPLES, True)
+        history = judge(w, method, block, forcing)
         if history.result == UNRESOLVED:
             return cell
         results.overturned[cell] = history.result == OVERTURNED
@@ -176,37 +173,45 @@ def outcome_of(
     amplitude: float,
     *,
     vertical: float = 0.0,
-    ratios: Array = NO_RATIOS,
     tolerance: float = TOLERANCE,
 ) -> Ending:
-    """Return the outcome of one history; see `outcomes_of` and `follow`."""
+    """Return the outcome of one history; see `outcomes_of`."""
     forcing = forcing_of(waveform, scale, amplitude, vertical)
-    history = followed(block, forcing, tolerance, ratios)
+    method = method_of(forcing, tolerance)
+    history = _called(lambda w: judge(w, method, block, forcing), forcing)
     if history.result == UNRESOLVED:
         raise _unresolved(block, waveform, scale, amplitude)
     overturned = history.result == OVERTURNED
     return Ending(overturned, math.nan if overturned else history.peak, history.impacts)
 
 
-def followed(
+def sampled(
     block: Oscillator,
     forcing: Forcing,
     tolerance: float,
-    ratios: Array = NO_RATIOS,
-    course: Course = FROM_REST,
-    samples: Samples | None = None,
+    start: tuple[float, float],
+    until: float,
+    samples: Samples,
 ) -> History:
-    """Return the history of a block; it is only judged unless there are `samples` to fill."""
-    is_record = forcing.wave == RECORD
-    order = record_order(forcing.step, tolerance) if is_record else PULSE_ORDER
-    method = Method(order, tolerance, is_straight(forcing.wave))
-    is_judged, samples = samples is None, samples or NO_SAMPLES
+    """Return the history of a block from θ and dθ/dτ on, and fill its samples; see `sample`."""
 
     def call(w: Array) -> History:
-        history: History = follow(w, method, block, forcing, ratios, course, samples, is_judged)
+        method = method_of(forcing, tolerance)
+        history: History = sample(w, method, block, forcing, *start, until, samples)
         return history
 
-    is_long = forcing.record.shape[1] + samples.times.size > MIN_THREADED_SAMPLES
+    return _called(call, forcing, samples.times.size)
+
+
+def method_of(forcing: Forcing, tolerance: float) -> Method:
+    """Return how the steps of a history are taken."""
+    is_record = forcing.wave == RECORD
+    order = record_order(forcing.step, tolerance) if is_record else PULSE_ORDER
+    return Method(order, tolerance, is_straight(forcing.wave))
+
+
+def _called(call: Callable[[Array], History], forcing: Forcing, samples: int = 0) -> History:
+    is_long = forcing.record.shape[1] + samples > MIN_THREADED_SAMPLES
     return in_threads([call])[0] if is_long else call(working_array())
 
 

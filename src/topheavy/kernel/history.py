@@ -1,16 +1,15 @@
-"""One rocking history by Taylor steps: its outcome, and samples of it where they are wanted.
+"""One rocking history by Taylor steps: `judge` returns its outcome, `sample` also fills samples.
 
-A history that is judged ends with the forcing, or where the block is sure to overturn: its energy
-then decides what follows (`bodies.free_rocking`). One with samples goes on, so that it can be
-drawn. Its free rocking has the same outcome, unless this energy equals that of the barrier within
-its error. Then the block is poised at φ = α and could leave it to the wrong side; the history ends
-there.
+`next_event` is the step of both. A history that is judged ends with the forcing, or where the block
+is sure to overturn: its energy then decides what follows (`bodies.free_rocking`). One with samples
+goes on, so that it can be drawn. Its free rocking has the same outcome, unless this energy equals
+that of the barrier within its error. Then the block is poised at φ = α and could leave it to the
+wrong side; the history ends there.
 """
 
 import math
+import sys
 from typing import NamedTuple
-
-import numpy as np
 
 from topheavy.bodies.free_rocking import ending
 from topheavy.ground.shapes import CONSTANT, RICKER_ANTISYMMETRIC, RICKER_SYMMETRIC
@@ -27,31 +26,29 @@ from topheavy.kernel.forcing import (
     piece_start,
 )
 from topheavy.kernel.march import march
-from topheavy.kernel.rest import (
-    MIN_COUNTED_PEAK,
-    MIN_COUNTED_PEAK_WITH_RATIOS,
-    comes_to_rest,
-    next_tick,
-)
+from topheavy.kernel.rest import MIN_COUNTED_PEAK, comes_to_rest, next_tick
 from topheavy.kernel.step import (
     FLAT,
     HALT,
     LANDING,
     MAX_STEPS,
+    NOTHING,
     PULSE_ORDER,
     advance,
     after_impact,
     is_certain_to_overturn,
     with_ground,
 )
-from topheavy.kernel.taylor import Method, Oscillator, State, evaluate
+from topheavy.kernel.taylor import Method, State, evaluate
 
 NO_UPLIFT, RESTS, ROCKING, OVERTURNED, UNRESOLVED = range(5)
+#: The event of a step that ends with a piece of a record, beside those of `step`.
+PIECE_END = FLAT + 1
 #: A history with samples that takes more steps than this (and ten a sample of the record) is given
-#: up as `UNRESOLVED`: the steps of the forcing (`step.MAX_STEPS`) and of the free rocking. A free
-#: flight takes fewer than ten, as the motion is a pendulum's, whose series converge over π/2 or
-#: more. There are at most twice `MAX_FREE_IMPACTS` flights or, in a history with an end of its own,
-#: as many as `Samples.impacts` has room for.
+#: up as `UNRESOLVED`, under the forcing or in free rocking. A free flight takes fewer than ten, as
+#: the motion is a pendulum's, whose series converge over π/2 or more. There are at most twice
+#: `MAX_FREE_IMPACTS` flights or, in a history with an end of its own, as many as `Samples.impacts`
+#: has room for.
 MAX_STEPS_WITH_SAMPLES = 5 * MAX_STEPS
 #: A free history without an end of its own ends after so many impacts.
 MAX_FREE_IMPACTS = 1000
@@ -60,23 +57,10 @@ MAX_FREE_FLIGHT = 100.0
 #: Over α: a block this far from φ = α, and going on, has left.
 POISED_ROTATION = 1e-3
 
+#: The largest time that is not infinite.
+MAX_TIME = sys.float_info.max
 
-class Course(NamedTuple):
-    """Where a history begins and ends.
-
-    Attributes
-    ----------
-    rotation, velocity : float
-        θ and dθ/dτ at τ = 0.
-    until : float
-        The τ at which it ends; if infinite, where the block rests or |θ| = π/2, or after
-        `MAX_FREE_IMPACTS` impacts behind the forcing. In either case it ends before a step by
-        which the block leaves φ = α to the other side than its energy says.
-    """
-
-    rotation: float
-    velocity: float
-    until: float
+free_rocking = compiled(ending)
 
 
 class Samples(NamedTuple):
@@ -124,148 +108,237 @@ class History(NamedTuple):
     all_impacts: int
 
 
-free_rocking = compiled(ending)
-#: The ratios where every impact has the √r of the block; the course and the samples of a history
-#: that is judged.
-NO_RATIOS = np.empty(0)
-FROM_REST = Course(0.0, 0.0, math.inf)
-NO_SAMPLES = Samples(np.empty(0), np.empty((2, 0)), np.empty(0))
+class Motion(NamedTuple):
+    """The motion of a block so far.
 
+    Attributes
+    ----------
+    state : State
+    zeros : int
+        How many of φ, φ', φ'' are zero; see `step.advance`.
+    piece : int
+        The piece of the record.
+    rocks : bool
+        Whether the block is off the ground, or has just landed and does not come to rest.
+    is_low : bool
+        Whether the flight is below `rest.MIN_COUNTED_PEAK` α so far.
+    has_rocked : bool
+    peak : float
+        The largest φ.
+    impacts : int
+        The number of impacts that count.
+    """
 
-@compiled
-def at_impact(block, ratios, impacts):
-    """Return the block with the √r of its next impact: its own after the last of the ratios."""
-    alpha, ratio, level, cosine, sine, flat, linearised = block
-    if impacts < ratios.size:
-        ratio = ratios[impacts]
-    return Oscillator(alpha, ratio, level, cosine, sine, flat, linearised)
+    state: State
+    zeros: int
+    piece: int
+    rocks: bool
+    is_low: bool
+    has_rocked: bool
+    peak: float
+    impacts: int
 
 
 @compiled(nogil=True)
-def follow(w, method, block, forcing, ratios, course, samples, is_judged):
-    """Follow a block from τ = 0 to the first of its ends and return its `History`.
+def judge(w, method, block, forcing):
+    """Follow a block from rest until its outcome is known and return its `History`."""
+    state = State(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0)
+    motion = Motion(state, 0, 0, False, True, False, 0.0, 0)
+    for _ in range(MAX_STEPS + 10 * forcing.record.shape[1]):
+        if w[HALT, 0] != 0.0:
+            break
+        if not motion.rocks:
+            motion = lift_off(block, forcing, motion)
+            if not motion.rocks:
+                result = RESTS if motion.has_rocked else NO_UPLIFT
+                return History(forcing.end, result, motion.peak, motion.impacts, motion.impacts)
+        motion, event = next_event(w, method, block, forcing, motion, forcing.end)
+        if event == PIECE_END and not (motion.is_low or block.linearised):
+            motion = _march(block, forcing, motion, method.tolerance)
+        state, peak, impacts = motion.state, motion.peak, motion.impacts
+        if event == FLAT or is_certain_to_overturn(block, forcing, state):
+            return History(state.time, OVERTURNED, peak, impacts, impacts)
+        if motion.rocks and state.time >= forcing.end:
+            tail = free_rocking(block, state.rotation, state.velocity)
+            result = OVERTURNED if tail.overturned else ROCKING
+            peak = peak if tail.overturned else max(peak, tail.peak)
+            return History(state.time, result, peak, impacts + tail.impacts, impacts)
+    return History(motion.state.time, UNRESOLVED, motion.peak, motion.impacts, motion.impacts)
+
+
+@compiled(nogil=True)
+def sample(w, method, block, forcing, rotation, velocity, until, samples):
+    """Follow a block, fill the samples and return its `History`.
 
     Parameters
     ----------
-    ratios : array
-        √r of the impacts that count, in turn; those after the last one have that of the block.
-        Where there are ratios, an impact counts above `rest.MIN_COUNTED_PEAK_WITH_RATIOS` α.
-    is_judged : bool
-        Whether the history ends as soon as its outcome is known; it then has no samples.
+    rotation, velocity : float
+        θ and dθ/dτ at τ = 0.
+    until : float
+        The τ at which it ends, not before the forcing; if infinite, where the block rests or
+        |θ| = π/2, or after `MAX_FREE_IMPACTS` impacts behind the forcing. In either case it ends
+        before a step by which the block leaves φ = α to the other side than its energy says.
     """
-    (rotation, velocity, until), (times, motion, impacts) = course, samples
-    peak, sample, counted, landed = abs(rotation), 0, 0, 0
-    moves = rotation != 0.0 or velocity**2 > 0.0  # a speed without an energy is rest
-    has_moved, is_low, is_forced, is_over = moves, rotation == 0.0, True, False
-    is_record = forcing.wave == RECORD
-    is_ricker = forcing.wave == RICKER_SYMMETRIC or forcing.wave == RICKER_ANTISYMMETRIC
-    state, zeros = _initial_state(block, forcing, course), 1 if rotation == 0.0 else 0
-    piece, forcing_end, flight_start, landed_forced = 0, forcing.end, 0.0, 0
-    landings_due, flights = 0, 0  # of free rocking: before it overturns; so far
-    block, original = at_impact(block, ratios, 0), block
-    has_ratios = ratios.size > 0
-    lowest = (MIN_COUNTED_PEAK_WITH_RATIOS if has_ratios else MIN_COUNTED_PEAK) * block.slenderness
-    most_steps = MAX_STEPS if is_judged else MAX_STEPS_WITH_SAMPLES
-    for _ in range(most_steps + 10 * forcing.record.shape[1]):
-        if w[HALT, 0] != 0.0 or (landed > impacts.size and not is_judged):
+    motion, filled = _first_motion(block, forcing, rotation, velocity), 0
+    for _ in range(MAX_STEPS_WITH_SAMPLES + 10 * forcing.record.shape[1]):
+        if w[HALT, 0] != 0.0 or motion.impacts > samples.impacts.size:
             break
-        time, side = state.time, state.side
-        if is_forced and time >= forcing_end:  # the ground comes to rest: judge what follows
-            method, forcing = Method(PULSE_ORDER, method.tolerance, True), _at_rest(forcing)
-            is_forced, is_record, is_ricker = False, False, False
-            flight_start, landed_forced = time, landed
-            state = with_ground(block, state, time, ground(forcing, time))
-            if moves:
-                tail = free_rocking(block, state.rotation, state.velocity)
-                is_over, counted = tail.overturned, counted + tail.impacts
-                landings_due = tail.impacts
-                peak = peak if is_over else max(peak, tail.peak)
-                if is_judged:
-                    return History(time, OVERTURNED if is_over else ROCKING, peak, counted, landed)
-        if not moves:
-            uplift, push, rate, side = next_uplift(forcing, time, block.level)
-            if uplift >= forcing_end:  # beyond the cut of a record
-                uplift = math.inf
-            # A motion that ends by rest has its end at the last landing or, later, at rest.
-            stays = time < forcing_end or not has_moved
-            while (
-                sample < times.size
-                and times[sample] <= uplift
-                and (stays or times[sample] < math.inf)
-            ):
-                motion[0, sample], motion[1, sample] = 0.0, 0.0
-                sample += 1
-            if uplift == math.inf:
-                result = RESTS if has_moved else NO_UPLIFT
-                return History(max(time, forcing_end), result, peak, counted, landed)
-            time, moves, has_moved, is_low, flight_start = uplift, True, True, True, uplift
-            _, _, weight, change = ground(forcing, time)
-            state = State(time, side, 0.0, 0.0, 0.0, 1.0, push, rate, weight, change)
-            zeros = 2 if push > 0.0 else 3
-            piece = piece_of(forcing, time) if is_record else 0
-        is_far = block.linearised and is_over and state.rotation >= math.pi / 2
-        is_endless = until == math.inf and not is_forced
-        is_poised = is_endless and time - flight_start >= MAX_FREE_FLIGHT
-        is_restless = is_endless and (
-            landed - landed_forced >= MAX_FREE_IMPACTS or flights >= 2 * MAX_FREE_IMPACTS
-        )
-        if time >= until or is_far or is_poised or is_restless:
-            return History(time, OVERTURNED if is_over else ROCKING, peak, counted, landed)
+        if motion.state.time >= forcing.end:
+            return _sample_free(w, method.tolerance, block, forcing, motion, until, samples, filled)
+        if not motion.rocks:
+            motion = lift_off(block, forcing, motion)
+            filled = _fill_rest(samples, filled, motion.state.time if motion.rocks else math.inf)
+            if not motion.rocks:
+                result = RESTS if motion.has_rocked else NO_UPLIFT
+                return History(forcing.end, result, motion.peak, motion.impacts, motion.impacts)
+        begin = motion
+        motion, event = next_event(w, method, block, forcing, begin, forcing.end)
+        filled = _fill(w, method, block, begin, motion, samples, filled)
+        state = motion.state
+        is_far = block.linearised and state.rotation >= math.pi / 2
+        if event == FLAT or (is_far and is_certain_to_overturn(block, forcing, state)):
+            return History(state.time, OVERTURNED, motion.peak, motion.impacts, motion.impacts)
+    return History(motion.state.time, UNRESOLVED, motion.peak, motion.impacts, motion.impacts)
 
-        piece_end = min(until, flight_start + MAX_FREE_FLIGHT) if is_endless else until
-        if is_forced:
-            piece_end = forcing_end
-            if is_record:
-                piece_end = min(piece_end, piece_start(forcing, piece + 1))
-        start, longest, flight_peak = state, piece_end - time, 0.0 if is_low else peak
-        step, event, flight_peak = advance(
-            w, method, block, forcing, start, zeros, longest, flight_peak
-        )
-        state, zeros = evaluate(w, method, block, start, step), 0
-        if not is_forced and _leaves_wrongly(block, state, event, is_over, landings_due - flights):
-            return History(time, OVERTURNED if is_over else ROCKING, peak, counted, landed)
-        peak = max(peak, flight_peak)
-        is_low = is_low and flight_peak <= lowest
-        time = piece_end if step >= longest else state.time
-        while sample < times.size and times[sample] <= time:
-            sampled = evaluate(w, method, block, start, times[sample] - start.time)
-            motion[0, sample], motion[1, sample] = side * sampled.rotation, side * sampled.velocity
-            sample += 1
-        if sample < times.size and times[sample] == math.inf:
-            motion[0, sample], motion[1, sample] = side * state.rotation, side * state.velocity
-        if is_ricker:  # over its many steps, the terms that its series leaves out would add up
-            state = with_ground(block, state, time, ground(forcing, time))
-        else:
-            state = at_time(state, time)
+
+@compiled
+def _sample_free(w, tolerance, block, forcing, motion, until, samples, filled):
+    """Follow a block from the end of the forcing on, fill samples and return its `History`."""
+    still = Forcing(NONE, 0.0, 1.0, forcing.end, 1.0, 0.0, forcing.record)
+    method, begin, flights = Method(PULSE_ORDER, tolerance, True), motion.state.time, 0
+    state, forced, flight_start = motion.state, motion.impacts, begin
+    if not motion.rocks:
+        _fill_rest(samples, filled, math.inf if not motion.has_rocked else MAX_TIME)
+        result = RESTS if motion.has_rocked else NO_UPLIFT
+        return History(begin, result, motion.peak, forced, forced)
+    tail = free_rocking(block, state.rotation, state.velocity)
+    result = OVERTURNED if tail.overturned else ROCKING
+    counted = forced + tail.impacts
+    state = with_ground(block, state, begin, ground(still, begin))
+    motion = Motion(state, motion.zeros, 0, True, motion.is_low, True, motion.peak, forced)
+    for _ in range(MAX_STEPS_WITH_SAMPLES):
+        before, time, landed = motion, motion.state.time, motion.impacts
+        peak = motion.peak if tail.overturned else max(motion.peak, tail.peak)
+        if w[HALT, 0] != 0.0 or landed > samples.impacts.size:
+            break
+        is_far = block.linearised and tail.overturned and motion.state.rotation >= math.pi / 2
+        is_poised = time - flight_start >= MAX_FREE_FLIGHT
+        is_restless = landed - forced >= MAX_FREE_IMPACTS or flights >= 2 * MAX_FREE_IMPACTS
+        if time >= until or is_far or (until == math.inf and (is_poised or is_restless)):
+            return History(time, result, peak, counted, landed)
+        stop = min(until, flight_start + MAX_FREE_FLIGHT) if until == math.inf else until
+        motion, event = next_event(w, method, block, still, before, stop)
+        if _leaves_wrongly(block, motion.state, event, tail.overturned, tail.impacts - flights):
+            return History(time, result, peak, counted, landed)
+        filled = _fill(w, method, block, before, motion, samples, filled)
         if event == FLAT:
-            return History(time, OVERTURNED, peak, counted, landed)
-        if event == LANDING or state.rotation <= 0.0:
-            if not is_low:
-                if landed < impacts.size:
-                    impacts[landed] = time
-                landed += 1
-                counted += 1 if is_forced else 0
-                block = at_impact(original, ratios, landed)
-            is_low, flight_start = True, time
-            state, zeros = after_impact(block, state), 1
-            if not is_forced:
-                flights += 1
-                bounce = free_rocking(block, 0.0, state.velocity)
-                moves = is_over or bounce.peak > MIN_COUNTED_PEAK * block.slenderness
-            elif time < forcing_end:
-                moves = not comes_to_rest(block, forcing, state, peak)
-                state = state if moves else at_time(state, next_tick(time))
-        elif is_forced and (block.linearised or is_judged) and not is_over:
-            is_over = is_certain_to_overturn(block, forcing, state)
-            if is_over and is_judged:
-                return History(time, OVERTURNED, peak, counted, landed)
-        if is_record and state.time >= piece_end:
-            piece += 1
-            if moves and state.time < forcing_end:
-                state = with_ground(block, state, state.time, ground_of_piece(forcing, piece))
-                if is_judged and not (is_low or block.linearised):
-                    piece, state, peak = march(block, forcing, state, piece, method.tolerance, peak)
-    return History(state.time, UNRESOLVED, peak, counted, landed)
+            return History(motion.state.time, OVERTURNED, peak, counted, motion.impacts)
+        if event == LANDING:
+            flights, flight_start = flights + 1, motion.state.time
+            bounce = free_rocking(block, 0.0, motion.state.velocity)
+            if not tail.overturned and bounce.peak <= MIN_COUNTED_PEAK * block.slenderness:
+                _fill_rest(samples, filled, MAX_TIME)
+                return History(flight_start, RESTS, peak, counted, motion.impacts)
+    return History(motion.state.time, UNRESOLVED, motion.peak, counted, motion.impacts)
+
+
+@compiled(forceinline=True, no_cpython_wrapper=False)
+def next_event(w, method, block, forcing, motion, until):
+    """Take the next step of a block that rocks.
+
+    Returns
+    -------
+    motion : Motion
+        At the end of the step, behind the impact if it ends with one.
+    event : int
+        `NOTHING`, `LANDING`, `FLAT` or, without any of these, `PIECE_END`.
+    """
+    begin, _, piece, _, is_low, _, peak, impacts = motion
+    is_record, stop = forcing.wave == RECORD, until
+    if is_record:
+        stop = min(stop, piece_start(forcing, piece + 1))
+    longest, flight_peak = stop - begin.time, 0.0 if is_low else peak
+    step, event, flight_peak = advance(
+        w, method, block, forcing, begin, motion.zeros, longest, flight_peak
+    )
+    state = evaluate(w, method, block, begin, step)
+    time = stop if step >= longest else state.time
+    if forcing.wave == RICKER_SYMMETRIC or forcing.wave == RICKER_ANTISYMMETRIC:
+        # over its many steps, the terms that its series leaves out would add up
+        state = with_ground(block, state, time, ground(forcing, time))
+    else:
+        state = at_time(state, time)
+    peak = max(peak, flight_peak)
+    is_low = is_low and flight_peak <= MIN_COUNTED_PEAK * block.slenderness
+    zeros, rocks = 0, True
+    if event == LANDING or (event == NOTHING and state.rotation <= 0.0):
+        impacts += 0 if is_low else 1
+        event, is_low, zeros, state = LANDING, True, 1, after_impact(block, state)
+        if time < forcing.end and comes_to_rest(block, forcing, state, peak):
+            rocks, state = False, at_time(state, next_tick(time))
+    if is_record and state.time >= stop:
+        piece += 1
+        if rocks and state.time < forcing.end:
+            state = with_ground(block, state, state.time, ground_of_piece(forcing, piece))
+            event = PIECE_END if event == NOTHING else event
+    return Motion(state, zeros, piece, rocks, is_low, True, peak, impacts), event
+
+
+@compiled
+def lift_off(block, forcing, motion):
+    """Return the motion at the next uplift of a block at rest; it rocks unless there is none."""
+    time, push, rate, side = next_uplift(forcing, motion.state.time, block.level)
+    if time >= forcing.end:
+        return motion
+    _, _, weight, change = ground(forcing, time)
+    state = State(time, side, 0.0, 0.0, 0.0, 1.0, push, rate, weight, change)
+    piece = piece_of(forcing, time) if forcing.wave == RECORD else 0
+    zeros = 2 if push > 0.0 else 3
+    return Motion(state, zeros, piece, True, True, True, motion.peak, motion.impacts)
+
+
+@compiled
+def _first_motion(block, forcing, rotation, velocity):
+    phi, side = abs(rotation), math.copysign(1.0, rotation if rotation != 0.0 else velocity)
+    sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(phi), math.cos(phi))
+    state = State(0.0, side, phi, side * velocity, sine, cosine, 0.0, 0.0, 1.0, 0.0)
+    state = with_ground(block, state, 0.0, ground(forcing, 0.0))
+    rocks = rotation != 0.0 or velocity**2 > 0.0  # a speed without an energy is rest
+    zeros = 1 if rotation == 0.0 else 0
+    return Motion(state, zeros, 0, rocks, rotation == 0.0, rocks, phi, 0)
+
+
+@compiled
+def _march(block, forcing, motion, tolerance):
+    """Return the motion after the pieces of a record that `march` passes over."""
+    piece, state, peak = march(block, forcing, motion.state, motion.piece, tolerance, motion.peak)
+    return Motion(state, 0, piece, True, False, True, peak, motion.impacts)
+
+
+@compiled
+def _fill(w, method, block, begin, motion, samples, filled):
+    """Fill the samples of a step from its series in `w`; return how many are filled."""
+    start, time, (times, values, impacts) = begin.state, motion.state.time, samples
+    for k in range(filled, times.size):
+        is_end = times[k] == math.inf
+        if times[k] > time and not is_end:
+            break
+        state = evaluate(w, method, block, start, min(times[k], time) - start.time)
+        values[0, k], values[1, k] = start.side * state.rotation, start.side * state.velocity
+        filled += 0 if is_end else 1
+    if begin.impacts < motion.impacts <= impacts.size:
+        impacts[begin.impacts] = time
+    return filled
+
+
+@compiled
+def _fill_rest(samples, filled, until):
+    """Fill the samples of a block at rest up to a time; return how many are filled."""
+    times, values, _ = samples
+    while filled < times.size and times[filled] <= until:
+        values[0, filled], values[1, filled] = 0.0, 0.0
+        filled += 1
+    return filled
 
 
 @compiled
@@ -285,25 +358,10 @@ def _leaves_wrongly(block, state, event, is_over, landings_left):
 
 
 @compiled
-def _initial_state(block, forcing, course):
-    rotation, velocity, _ = course
-    phi, side = abs(rotation), math.copysign(1.0, rotation if rotation != 0.0 else velocity)
-    sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(phi), math.cos(phi))
-    state = State(0.0, side, phi, side * velocity, sine, cosine, 0.0, 0.0, 1.0, 0.0)
-    return with_ground(block, state, 0.0, ground(forcing, 0.0))
-
-
-@compiled
 def at_time(state, time):
     """Return the state at another time."""
     _, side, rotation, velocity, sine, cosine, push, rate, gravity, change = state
     return State(time, side, rotation, velocity, sine, cosine, push, rate, gravity, change)
-
-
-@compiled
-def _at_rest(forcing):
-    """Return the forcing of ground that is at rest from its end on."""
-    return Forcing(NONE, 0.0, 1.0, forcing.end, 1.0, 0.0, forcing.record)
 
 
 @compiled

@@ -29,8 +29,6 @@ from topheavy.kernel.forcing import (
 
 #: A rotation below this, over α, is no rocking: the impact that ends it is not counted.
 MIN_COUNTED_PEAK = 1e-6
-#: The same where each impact has a √r of its own: the order of smaller ones is not known.
-MIN_COUNTED_PEAK_WITH_RATIOS = 1e-3
 #: Pieces of a record over which the push is bounded piece by piece. A block with √r → 1 would rest
 #: after so many that each bounce took the time of the whole record.
 MAX_SCANNED_PIECES = 256

@@ -15,7 +15,7 @@ from topheavy.kernel.forcing import bounds_after, equation
 from topheavy.kernel.taylor import ROTATION, State, expand, longest_step
 
 #: Terms of φ in a step of a pulse.
-PULSE_ORDER = 15
+PULSE_ORDER = 16
 #: Bound on the last two terms of φ' in a step, over α.
 TOLERANCE = 3e-10
 #: A history with more steps than this (and ten a sample) is given up as not resolved.
@@ -91,7 +91,11 @@ def advance(w, method, block, forcing, state, zeros, longest, peak):
     for k in range(order + 1):
         w[POLYNOMIAL, k] = w[ROTATION, k] * power
         power *= step
-    if zeros < 2:
+    if zeros >= 2:
+        final, rises = _plain_rise(w, order, zeros)
+        if rises and final <= block.flat:
+            return step, NOTHING, max(peak, final)
+    else:
         low, high, final, rises, falls = _plain_range(w, order)
         if rises and final <= block.flat:
             return step, NOTHING, max(peak, final)
@@ -132,23 +136,45 @@ def proven(w, order, zeros, flat, peak):
 
 @compiled(fastmath={"contract"})
 def _plain_range(w, order):
-    """Return bounds of the step polynomial on [0, 1], its last value, and whether it surely rises.
+    """Return bounds of the step polynomial on [0, 1], its last value, whether it rises or falls.
 
-    The first three terms have three Bernstein coefficients (their derivative two), and the others
-    are no larger than the sum of their moduli. This settles most steps at a tenth of the price.
+    The first five terms lie within their Bernstein coefficients, and so does their derivative. The
+    other terms are no larger than the sum of their moduli.
+    This settles most steps at a tenth of the price of a proof.
     """
-    first, second, third = w[POLYNOMIAL, 0], w[POLYNOMIAL, 1], w[POLYNOMIAL, 2]
+    c0, c1, c2, c3 = w[POLYNOMIAL, 0], w[POLYNOMIAL, 1], w[POLYNOMIAL, 2], w[POLYNOMIAL, 3]
+    c4 = w[POLYNOMIAL, 4]
     others, final, bend = 0.0, 0.0, 0.0
-    for k in range(3, order + 1):
+    for k in range(5, order + 1):
         size = abs(w[POLYNOMIAL, k])
         final += w[POLYNOMIAL, k]
         others += size
         bend += k * size
-    middle, last = first + 0.5 * second, first + second + third
-    rises = min(second, second + 2 * third) > bend
-    falls = max(second, second + 2 * third) < -bend
-    low, high = min(first, middle, last) - others, max(first, middle, last) + others
+    last = c0 + c1 + c2 + c3 + c4
+    s1, s2, s3 = c1 + 2 * c2 / 3, c1 + 4 * c2 / 3 + c3, c1 + 2 * c2 + 3 * c3 + 4 * c4
+    rises = min(min(c1, s1), min(s2, s3)) > bend
+    falls = max(max(c1, s1), max(s2, s3)) < -bend
+    b1, b2, b3 = c0 + c1 / 4, c0 + c1 / 2 + c2 / 6, c0 + 0.75 * c1 + 0.5 * c2 + 0.25 * c3
+    low = min(min(c0, b1), min(b2, min(b3, last))) - others
+    high = max(max(c0, b1), max(b2, max(b3, last))) + others
     return low, high, last + final, rises, falls
+
+
+@compiled(fastmath={"contract"})
+def _plain_rise(w, order, zeros):
+    """Return the last value of the step polynomial after an uplift and whether it surely rises.
+
+    As `_plain_range`, with the first four terms of the derivative over x to its zeros at 0.
+    """
+    a, b = zeros * w[POLYNOMIAL, zeros], (zeros + 1) * w[POLYNOMIAL, zeros + 1]
+    c, d = (zeros + 2) * w[POLYNOMIAL, zeros + 2], (zeros + 3) * w[POLYNOMIAL, zeros + 3]
+    final, bend = 0.0, 0.0
+    for k in range(zeros, order + 1):
+        final += w[POLYNOMIAL, k]
+    for k in range(zeros + 4, order + 1):
+        bend += k * abs(w[POLYNOMIAL, k])
+    least = min(min(a, a + b / 3), min(a + (2 * b + c) / 3, a + b + c + d))
+    return final, least > bend
 
 
 @compiled

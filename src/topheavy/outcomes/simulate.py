@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -26,16 +25,14 @@ from topheavy.kernel.forcing import (
     pulse_waveform,
     record_waveform,
 )
-from topheavy.kernel.grid import followed, outcome_of
+from topheavy.kernel.grid import outcome_of, sampled
 from topheavy.kernel.history import (
     MAX_STEPS_WITH_SAMPLES,
-    NO_RATIOS,
     NO_UPLIFT,
     OVERTURNED,
     RESTS,
     ROCKING,
     UNRESOLVED,
-    Course,
     History,
     Samples,
 )
@@ -130,8 +127,8 @@ def simulate(
 
     def followed_until(until: float, at: Times) -> tuple[Samples, History]:
         samples = Samples(at, np.full((2, at.size), math.nan), np.empty(MAX_IMPACTS))
-        course = Course(theta, theta_rate / p, until)
-        history = followed(oscillator(block), forcing, tolerance, NO_RATIOS, course, samples)
+        start = theta, theta_rate / p
+        history = sampled(oscillator(block), forcing, tolerance, start, until, samples)
         if history.result == UNRESOLVED:
             raise ArithmeticError(
                 f"{block} under {_described(excitation)}: more than {MAX_IMPACTS} impacts or "
@@ -173,7 +170,6 @@ def judge(
     *,
     tolerance: float = TOLERANCE,
     vertical: Record | None = None,
-    restitutions: Sequence[float] = (),
 ) -> Ending:
     """Return whether a structure overturns, its peak rotation, and the number of impacts.
 
@@ -186,15 +182,12 @@ def judge(
         See `simulate`.
     excitation : Pulse or Record
         One that ends.
-    restitutions : sequence of float
-        √r of the first impacts, in turn; for later impacts that of the structure. With this
-        argument, impacts that end a rotation of 1e-3 α or less are not counted.
 
     Raises
     ------
     ValueError
         For an excitation that is not a ground motion or goes on forever, a tolerance out of range,
-        a vertical acceleration of −1 g or less, or a restitution outside of 0 to 1.
+        or a vertical acceleration of −1 g or less.
     ArithmeticError
         For a block that bounces too often to be followed.
 
@@ -213,7 +206,6 @@ def judge(
         shaking.scale(block),
         shaking.amplitude,
         vertical=1.0,
-        ratios=np.array([checks.fraction("restitutions", value) for value in restitutions]),
         tolerance=checked_tolerance(tolerance),
     )
 
