@@ -2,13 +2,11 @@
 
     python src/audit.py [folder of the repository [names of parts]]
 
-It needs NumPy and SciPy, and imports nothing of this project. For every number it prints what the
-paper prints, what is published here (README, tests/reference/*.csv), what this file computes, and
-the difference. It ends with 1 if one departs. Read it downwards.
+It needs NumPy and SciPy, and imports nothing of this project. It prints what the paper prints, what
+is published, what it computes, and the difference, and ends with 1 if a number departs.
 
-Time is p t, so that Eq. (23) has two parameters, α and √r. One call follows many motions side by
-side, its lanes: a lane is a body, an amplitude and, under a pulse, a frequency. With the side
-s = sgn θ and φ = |θ| of a lane, a = ü_g/g, and w = 1 + v̈_g/g under a vertical motion (else 1),
+Time is p t. One call follows many lanes: a lane is a body, an amplitude and, under a pulse, a
+frequency. With s = sgn θ, φ = |θ|, a = ü_g/g, and w = 1 + v̈_g/g under a vertical motion (else 1),
 
     φ'' = −w sin(α − φ) − s a cos(α − φ)      or, linearised,      φ'' = −w (α − φ) − s a.
 
