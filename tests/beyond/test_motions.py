@@ -373,5 +373,5 @@ def test_outcomes_that_a_nudge_changes_are_not_known():
 def test_a_solver_that_differs_stops_the_step(monkeypatch):
     cells = [(COLUMN.block(), Record(0.01, np.sin(np.arange(200) / 20.0)), None, 0.1, False)]
     plain.check_sample(cells)
-    with pytest.raises(SystemExit, match="SciPy has 1 of 1 outcomes otherwise"):
+    with pytest.raises(SystemExit, match="the plain solver has 1 of 1 outcomes otherwise"):
         plain.check_sample([(*cells[0][:-1], True)])
