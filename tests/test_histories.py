@@ -234,7 +234,8 @@ SLOW = th.RockingBlock(2.14, 0.25, 0.9)
 
 def test_poised_block_that_was_judged_overturned_does_not_bounce():
     """Its energy is the barrier's plus 1e-16; integrated, it falls back."""
-    history = th.simulate(SLOW, th.Pulse("one-sine", 2.223221510648727, 15.7))
+    _, amplitude = boundary(th.judge, SLOW, 2.2, 2.25)
+    history = th.simulate(SLOW, th.Pulse("one-sine", amplitude, 15.7))
     assert history.outcome == "overturned"
     assert len(history.impacts) == history.number_of_impacts == 1
     assert history.rotation[-1] == pytest.approx(0.25, rel=1e-3)
