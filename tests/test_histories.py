@@ -62,8 +62,9 @@ def test_samples_only_look(solve, block, pulse, rotation):
             whole.overturned,
             whole.number_of_impacts,
         )
-        peak = pytest.approx(whole.peak_rotation, rel=1e-9, nan_ok=True)
-        assert found.peak_rotation == peak
+        # samples end steps of the plain solver, whose error of a peak is below 1e-8 α
+        close = {"rel": 1e-9, "abs": 1e-10 * block.slenderness}
+        assert found.peak_rotation == pytest.approx(whole.peak_rotation, **close, nan_ok=True)
         at = np.searchsorted(whole.time, found.time)
         for k in np.flatnonzero(np.isin(found.time, whole.time)):
             for name in ("rotation", "velocity"):

@@ -113,7 +113,8 @@ def test_both_solvers_agree(up, linearised, factor):
     off = ours.rotation[known] - theirs.rotation[known]
     assert np.abs(off).max() < 1e-7 * block.slenderness
     assert known.sum() > 100
-    np.testing.assert_allclose(ours.impacts, theirs.impacts, atol=1e-5)
+    impacts = theirs.impacts[theirs.impacts <= 6.0]  # the plain solver goes on to the outcome
+    np.testing.assert_allclose(ours.impacts, impacts, atol=1e-5)
     level = th.simulate(block, shaking, samples=TIME, duration=6.0)
     moved = np.abs(ours.rotation - level.rotation)
     assert np.nanmax(moved) > 1e-3 * block.slenderness

@@ -254,7 +254,7 @@ def test_each_cell_is_the_history_of_a_similar_structure(similar):
 
 
 @pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
-def test_cells_of_a_block_are_those_of_judge_and_of_scipy(block):
+def test_cells_of_a_block_are_those_of_judge_and_of_the_plain_solver(block):
     sizes = [0.4, 1.0, 3.0, 9.0]
     outcomes = th.overturning_map(block, MINE, sizes, PEAKS[2:])
     for i, p in enumerate(outcomes.frequency_parameter.values):

@@ -219,21 +219,21 @@ def minimum(structure, pulse=PULSE, highest=2.0, floor=0.001):
     return vase.lowest(structure, pulse, highest, floor)
 
 
-def test_minimum_is_the_known_one_and_scipy_agrees():
+def test_minimum_is_the_known_one_and_the_plain_solver_agrees():
     fixed = th.FixedMassColumn(COLUMN, 1.0)
     found = minimum(fixed)
     assert found.factor == pytest.approx(0.20358, abs=1e-4)
     assert 0.0 < vase.error_of(fixed, PULSE, found) < 1e-6
-    with pytest.raises(SystemExit, match="SciPy finds no minimum"):
+    with pytest.raises(SystemExit, match="the plain solver finds no minimum"):
         vase.error_of(COLUMN, PULSE, found)
     assert minimum(COLUMN, highest=0.15) is None  # below uplift
     assert minimum(COLUMN, highest=0.25) is None  # nothing overturns
 
 
-def test_error_of_a_minimum_is_as_large_as_scipy_is_off(monkeypatch):
+def test_error_of_a_minimum_is_as_large_as_the_plain_solver_is_off(monkeypatch):
     found = minimum(COLUMN)
     stub = lambda _, motion: SimpleNamespace(overturned=motion.amplitude > 1.00002 * found.factor)  # noqa: E731
-    monkeypatch.setattr(vase.reference, "judge", stub)
+    monkeypatch.setattr(vase.plain, "judge", stub)
     assert 2e-5 < vase.error_of(COLUMN, PULSE, found) / found.factor < 1.1e-3
 
 

@@ -6,6 +6,7 @@ Taylor solver is sure.
 
 import math
 from collections.abc import Callable, Iterable
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +19,7 @@ from topheavy.bodies.free_rocking import Ending
 from topheavy.bodies.response import initial_motion, sample_times
 from topheavy.bodies.structures import Structure, as_block
 from topheavy.ground.excitation import Excitation, checked_excitation
-from topheavy.ground.vertical import both_records, refuse_fall
+from topheavy.ground.vertical import both_records, refuse_fall, without_rest
 
 NEAR = 1e-3  # of a factor on a motion: how far a change of outcome is at most
 FREE = 60.0  # over p: in which what loses a tenth of its speed at impacts comes to rest
@@ -55,16 +56,19 @@ def ground_of(
 
 
 def _lines(record: Record, vertical: Record | None) -> audit.Ground:
-    """Return records of one time step, without the zeros at their end."""
-    parts = [record.acceleration, np.zeros(2) if vertical is None else vertical.acceleration]
-    if vertical is not None and vertical.time_step != record.time_step:
-        raise ValueError(
-            f"time steps are {record.time_step:g} s and {vertical.time_step:g} s; expected the same"
-        )
-    moving = [np.trim_zeros(part, "b") for part in parts]
-    size = max(2, *(min(one.size + 1, part.size) for one, part in zip(moving, parts, strict=True)))
-    both = [np.pad(part, (0, max(0, size - part.size)))[:size] for part in parts]
-    return audit.record(both[0], record.time_step, both[1])
+    """Return records by straight lines, without the zeros at their end and zero right behind it."""
+    if vertical is None:
+        moving = without_rest(record)
+        return audit.record(moving.acceleration, moving.time_step)
+    times, lines = [], []
+    for part in map(without_rest, (record, vertical)):
+        time = part.time_step * np.arange(part.acceleration.size)
+        times.append(np.append(time, np.nextafter(time[-1], math.inf)))
+        lines.append(partial(np.interp, xp=times[-1], fp=np.append(part.acceleration, 0.0)))
+    last = max(time[-2] for time in times)
+    corners = np.union1d(*times)
+    at, up = lines
+    return audit.Ground(at, corners[corners <= last], weight=lambda x: 1.0 + up(x), straight=True)
 
 
 def _body(block: RockingBlock) -> audit.Body:
