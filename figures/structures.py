@@ -1,8 +1,8 @@
-"""The paper's Fig. 1: four structures with their minima, and their restoring moment."""
+"""The paper's Fig. 1: four structures with their minima, their restoring moment and inertia."""
 
 from drawing import gamma
 from matplotlib.patches import Rectangle
-from palette import CAP, FORCE, STONE
+from palette import CAP, FIXED, FORCE, STONE
 
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
 
@@ -70,27 +70,38 @@ def structures(axis, table, top):
     axis.axis("off")
 
 
-def moments(axis, table):
-    axis.axhline(0, color=GREY, linewidth=0.6)
-    curves = table.groupby("mass_ratio")
-    for (mass_ratio, curve), colour in zip(curves, shades(len(curves)), strict=True):
-        rotation, moment = list(curve.rotation_over_alpha), list(curve.moment)
-        whole = [-x for x in reversed(rotation)] + rotation, [-y for y in reversed(moment)] + moment
-        axis.plot(*whole, color=colour)
-        text = r"column, $\sin\alpha$" if mass_ratio == 0.0 else gamma(mass_ratio)
-        note(axis, text, (-0.06, curve.moment.max()), ha="right")
-    axis.set(xlabel=r"Rotation, $\theta/\alpha$ (–)", ylabel=r"Moment, $M/m_\mathrm{c}gR$ (–)")
+def curves(axis, table, column):
+    """Draw a column of the table against the rotation, over its value for the column at uplift."""
+    loose = table[table.mass == "loose"].groupby("mass_ratio")
+    unit = loose.get_group(0.0)[column].max()
+    every = [*zip(loose, shades(len(loose)), strict=True)]
+    every += [(one, FIXED) for one in table[table.mass == "fixed"].groupby("mass_ratio")]
+    for (mass_ratio, curve), colour in sorted(every, key=lambda one: -one[0][1][column].max()):
+        height = curve[column] / unit
+        name = "column" if mass_ratio == 0.0 else gamma(mass_ratio)
+        name += ", fixed" if colour == FIXED else ""
+        line = [0.0, *curve.rotation_over_alpha], [0.0, *height]
+        axis.plot(*line, color=colour, label=f"{height.max():.2g}: {name}", clip_on=False)
+    axis.set(xlim=(0, 1.05), ylim=(0, None), xticks=(0, 0.5, 1))
+    axis.legend(loc="upper right", bbox_to_anchor=(1.02, 1.06), labelspacing=0.15)
 
 
 def draw(four_structures, moment_rotation):
     every = [part for row in four_structures.itertuples() for part in bodies(row)]
     top = max(11.5, *(bottom + height for _, bottom, _, height, _ in every))
-    tall = 70 * max(1.0, (top + 10) / 23)  # mm, so that words below a high beam keep their places
-    figure, (left, right) = sheet(DOUBLE, tall, ncols=2, width_ratios=(2.1, 1))
-    structures(left, four_structures, top)
-    moments(right, moment_rotation)
+    tall = 68 * max(1.0, (top + 10) / 23)  # mm, so that words below a high beam keep their places
+    figure, axes = sheet(DOUBLE, tall, "ab;ac", width_ratios=(2.1, 1))
+    structures(axes["a"], four_structures, top)
+    curves(axes["b"], moment_rotation, "moment")
+    axes["b"].set_ylabel(r"$M/m_\mathrm{c}gR\,\sin\alpha$ (–)")
+    curves(axes["c"], moment_rotation, "moment_over_inertia")
+    axes["c"].set(xlabel=r"Rotation, $\theta/\alpha$ (–)", ylabel=r"$M/I\,p^2\sin\alpha$ (–)")
     letter(
-        [left, right],
-        ["Order of stability in the paper, and minima", "Restoring moment of one column"],
+        axes.values(),
+        [
+            "Order of stability in the paper, and minima",
+            "Restoring moment per column",
+            "Moment over inertia",
+        ],
     )
     return figure

@@ -7,7 +7,7 @@ import sympy as sp
 
 from replication.step import check, run, truth, value
 from steps.shared import plain
-from topheavy import Column, Pulse, RockingFrame, lowest_overturning
+from topheavy import Column, FixedMassColumn, Pulse, RockingFrame, lowest_overturning
 from topheavy.bodies.moment_rotation import restoring_moment
 from topheavy.derivation.motion import RECTANGULAR_OF_TWO, potential_energy
 from topheavy.derivation.notation import POSITIVE, R, alpha, g, gamma, m_c
@@ -59,14 +59,18 @@ def compute(settings, structures):
 
     angles = np.linspace(0.0, settings["largest_slenderness"], settings["slendernesses"])[1:]
 
-    rotations = np.linspace(0.0, column.slenderness, settings["rotations"])
-    moments = {
-        each: -moment_by_energy(each, column.slenderness, rotations)
-        for each in (0.0, *settings["frames"])
-    }
-    for each, moment in moments.items():
-        apart = np.abs(restoring_moment(RockingFrame(column, each), rotations) - moment).max()
+    shares = np.linspace(0.0, 1.0, settings["rotations"])
+    moments = []
+    for each in (0.0, *settings["frames"]):
+        frame, rotations = RockingFrame(column, each), shares * column.slenderness
+        moment = -moment_by_energy(each, column.slenderness, rotations)
+        apart = np.abs(restoring_moment(frame, rotations) - moment).max()
         check(apart < ROUNDING, f"γ = {each:g}: the moment is {apart:.1g} m_c g R from −dV/dθ")
+        moments.append(("loose", each, frame, rotations, moment))
+    fixed = FixedMassColumn(column, settings["frames"][0])
+    rotations, arm = shares * fixed.slenderness, math.hypot(fixed.half_base, fixed.centre_height)
+    moment = (1.0 + fixed.mass_ratio) * arm / column.size * np.sin(fixed.slenderness - rotations)
+    moments.append(("fixed", fixed.mass_ratio, fixed, rotations, moment))
 
     shown = {"small column": (small, 0.0), "column": (column, 0.0)}
     shown |= {f"frame {each:g}": (column, each) for each in settings["frames"]}
@@ -88,11 +92,14 @@ def compute(settings, structures):
         ],
         "moment_rotation": [
             {
+                "mass": support,
                 "mass_ratio": each,
                 "rotation_over_alpha": rotation / column.slenderness,
                 "moment": one,
+                "moment_over_inertia": (body.frequency_parameter / column.frequency_parameter) ** 2
+                * math.sin(body.slenderness - rotation),
             }
-            for each, moment in moments.items()
+            for support, each, body, rotations, moment in moments
             for rotation, one in zip(rotations, moment, strict=True)
         ],
         "four_structures": [
@@ -119,7 +126,7 @@ def findings(mass_ratio, restitution, moment_rotation, four_structures):
     loss = restitution.restitution_of_column - restitution.restitution
     heavy = restitution.mass_ratio > 0.0
     rocks = restitution[heavy & (restitution.restitution >= 0.0)]
-    moments = moment_rotation.pivot(
+    moments = moment_rotation[moment_rotation.mass == "loose"].pivot(
         index="rotation_over_alpha", columns="mass_ratio", values="moment"
     )
     shapes = moments.iloc[:-1].div(moments[0.0].iloc[:-1], axis=0)  # all vanish at α
