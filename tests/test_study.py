@@ -14,6 +14,15 @@ UV = """#!/bin/sh
 if [ "$1" = build ]; then mkdir "$6" && touch "$6/topheavy-0-py3-none-any.whl"; fi
 """
 
+# The tests of the copy, twice in one process: the second time with a wrong number in the text.
+TESTS = """
+import pathlib, pytest
+assert pytest.main([]) == 0
+path = pathlib.Path("results/numbers.json")
+path.write_text(path.read_text().replace('"bent": [3.', '"bent": [2.'))
+assert pytest.main([]) == 1
+"""
+
 
 def run(folder, *command):
     """Run a command with the Python of the tests as `python`."""
@@ -41,25 +50,14 @@ def bridge(tmp_path_factory):
     return parent / "bridge"
 
 
-def pytest_of(folder):
-    return run(folder, "python", "-m", "pytest", "-p", "no:cacheprovider")
-
-
-def test_the_copy_is_named_and_its_tests_pass(bridge):
+def test_the_tests_of_the_copy_pass_and_a_wrong_number_fails_one(bridge):
     assert (bridge / "results/report.pdf").is_file()
     assert 'name = "bridge"' in (bridge / "pyproject.toml").read_text("utf-8")
     assert "../.." not in (bridge / "pyproject.toml").read_text("utf-8")
-    assert pytest_of(bridge)[0] == 0
-
-
-def test_a_wrong_number_fails_a_test_of_the_copy(bridge):
-    path = bridge / "results/numbers.json"
-    before = path.read_text("utf-8")
-    path.write_text(before.replace('"bent": [3.', '"bent": [2.'), "utf-8")
-    code, output = pytest_of(bridge)
-    path.write_text(before, "utf-8")
-    assert code == 1
-    assert "test_the_text_quotes_the_capacity_of_the_table[bent" in output
+    code, output = run(bridge, "python", "-c", TESTS)
+    assert code == 0, output
+    assert output.count("FAILED") == 1
+    assert "FAILED tests/test_bent.py::test_the_text_quotes_the_numbers_of_the_table" in output
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,9 @@
-"""Compute which factors on a record overturn a bent, and one of its columns alone."""
+"""Compute and draw which factors on a record overturn a bent, and one of its columns alone."""
 
 import json
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 import yaml
 
@@ -19,10 +20,10 @@ def outcomes(config):
 def numbers(factors, bent, column, scale):
     """Return the numbers of the text; None where too few factors overturn for a capacity."""
     windows = (0.05, 0.025, 0.1, 0.2)  # the text quotes the first, and the range over all
-    of_bent = np.array([Capacity(factors, bent).over(window) for window in windows])
-    of_column = np.array([Capacity(factors, column).over(window) for window in windows])
+    both = [Capacity(factors, fell) for fell in (bent, column)]
+    of_bent, of_column = np.array([[each.over(window) for window in windows] for each in both])
     capacities = {"bent": of_bent, "column": of_column, "gain": of_bent / of_column}
-    return {"survives": bool(not bent[factors <= scale].any())} | {
+    return {"survives": not bent[factors <= scale].any()} | {
         name: [each[0], min(each), max(each)] if np.isfinite(each).all() else None
         for name, each in capacities.items()
     }
@@ -30,6 +31,10 @@ def numbers(factors, bent, column, scale):
 
 if __name__ == "__main__":
     config = yaml.safe_load(Path("config.yaml").read_text())
-    table = outcomes(config)
+    factors, bent, column = table = outcomes(config)
     np.savetxt("results/outcomes.csv", np.transpose(table), header="factor, bent, column")
     Path("results/numbers.json").write_text(json.dumps(numbers(*table, config["scale"])))
+    figure, axis = plt.subplots(figsize=(6.3, 1.2), layout="constrained")
+    axis.pcolormesh(factors, [0, 1], [column, bent], cmap="Greys", rasterized=True)
+    axis.set(xlabel="Factor on the record (–)", yticks=[0, 1], yticklabels=["column", "bent"])
+    figure.savefig("results/capacity.svg", metadata={"Date": None}, dpi=600)
