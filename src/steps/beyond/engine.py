@@ -7,8 +7,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, run, truth
-from steps.beyond import space
-from steps.beyond.boxes import Boxes, overturns, rebound
+from steps.beyond.rigid_bodies import Bodies, overturns, rebound
 from topheavy import (
     Cap,
     Column,
@@ -23,6 +22,7 @@ from topheavy import (
 CLOSE = 0.005  # of √r: agreement with Eq. (25)
 NO_REBOUND = 0.2  # coefficient of restitution of a point, below which a contact has no rebound
 HARD = 0.01  # over 1/p: time constant up to which a contact is hard
+FRICTION = 1.0  # of the contacts of a release
 STEPS_IN_CONTACT = 4  # time steps in the time constant, or in the period of a stiffer contact
 HIGHEST = 40.0  # over g tan α: end of the search for the minimum overturning acceleration
 BELOW = 3  # steps below the minimum in theory: where the first amplitude that overturns is sought
@@ -47,17 +47,18 @@ def frames_of(frames, settings, structures):
             yield name, RockingFrame(Column(**structures[name]), gamma), Cap(span, depth / 2.0)
 
 
-def boxes_of(frame, cap, time_step, time_constant, **contact):
-    """Return boxes from a time step and a time constant over 1/p."""
-    scale = 1.0 / frame.column.frequency_parameter
-    return Boxes(frame, cap, scale * time_step, scale * time_constant, **contact)
+def planar(frame, cap, time_step, **contact):
+    """Return a column or a frame in its plane, as deep as a column is wide."""
+    column, in_row = frame.column, 2 if frame.mass_ratio else 1
+    shape = {"in_row": in_row, "is_planar": True}
+    return Bodies(column, column.half_width, frame.mass_ratio, cap, time_step, **shape, **contact)
 
 
-def released(boxes, lean):
+def restitution_of(bodies, frame, lean):
     """Return the coefficient of restitution at the first impact after a release at θ = lean α."""
-    rotation = lean * boxes.frame.slenderness
-    first, second = simulate(boxes.frame, rotation=rotation, samples=2).impacts[:2]
-    return rebound(boxes, rotation, float(first + 0.75 * (second - first)))
+    rotation = lean * frame.slenderness
+    first, second = simulate(frame, rotation=rotation, samples=2).impacts[:2]
+    return rebound(bodies, rotation, float(first + 0.75 * (second - first)))
 
 
 def restitution(settings, structures):
@@ -70,14 +71,16 @@ def restitution(settings, structures):
             "damping_ratio": ratio,
             "time_constant": constant,
             "point_restitution": point_restitution(ratio),
-            "engine": released(
-                boxes_of(
+            "engine": restitution_of(
+                planar(
                     frame,
                     cap,
                     constant * min(1.0, ratio) / STEPS_IN_CONTACT,
-                    constant,
+                    time_constant=constant,
                     damping_ratio=ratio,
+                    friction=FRICTION,
                 ),
+                frame,
                 spec["lean"],
             ),
             "theory": frame.restitution,
@@ -108,8 +111,9 @@ def outcomes(settings, structures):
     for name, frame, cap in frames_of(spec["frames"], settings, structures):
         pulses = [(kind, minimum(frame, kind)) for kind in spec["pulses"]]
         for contact, properties in spec["contacts"].items():
-            boxes = boxes_of(frame, cap, spec["time_step"], friction=spec["friction"], **properties)
-            measured = released(boxes, spec["lean"])
+            solver = {name: spec[name] for name in ("time_step", "friction")} | properties
+            bodies = planar(frame, cap, **solver)
+            measured = restitution_of(bodies, frame, spec["lean"])
             refitted = frame.block().with_restitution(measured)
             rows += [
                 {
@@ -118,7 +122,7 @@ def outcomes(settings, structures):
                     "contact": contact,
                     **kind,
                     "factor": factor,
-                    "engine": overturns(boxes, pulse := lowest.scaled(factor)),
+                    "engine": overturns(bodies, pulse := lowest.scaled(factor)),
                     "theory": judge(frame, pulse).overturned,
                     "theory_with_rebound": judge(refitted, pulse).overturned,
                 }
@@ -177,7 +181,7 @@ def first(row, changed, settings, structures):
     if name == FIXED or direction == ACROSS:
         theory = FixedMassColumn(side, gamma, 2.0 * side.half_width, cap_depth)
     solver = {"time_step": spec["time_step"], "friction": spec["friction"]} | changed
-    bodies = space.Bodies(
+    bodies = Bodies(
         column,
         side.half_width,
         gamma,
@@ -194,7 +198,7 @@ def first(row, changed, settings, structures):
         expected = minimum(theory, kind, column).amplitude / alone.amplitude
         begin = max(uplift, expected - BELOW * step)
     factors = step * np.arange(math.floor(begin / step), math.ceil(HIGHEST / step))
-    lowest = next(f for f in factors if space.overturns(bodies, alone.scaled(f), direction))
+    lowest = next(f for f in factors if overturns(bodies, alone.scaled(f), direction))
     message = f"{row}, {changed}: from {lowest:.2f} on; expected {expected:.3f} within a step"
     check(not abs(lowest - expected) > 1.5 * step, message)
     numbers = {"uplift": uplift, "theory": expected, "engine": lowest}

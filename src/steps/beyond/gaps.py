@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, run, truth
-from steps.beyond.space import Bodies, motion
+from steps.beyond.rigid_bodies import Bodies, motion
 from topheavy import STANDARD_GRAVITY, Cap, Column
 
 ROTATIONS = {"in_plane": (0, 2), "yaw": (1, 0)}  # sines, in the matrix
