@@ -64,12 +64,12 @@ def errors(axis, table):
 
 
 def draw(allen_histories, allen_errors):
-    figure, axes = sheet(DOUBLE, 62, "ace;bde", width_ratios=(1, 1, 1.15), height_ratios=(0.45, 1))
+    figure, axes = sheet(DOUBLE, 56, "ace;bde", width_ratios=(1, 1, 1.15), height_ratios=(0.45, 1))
     for (above, below), motion in zip((("a", "b"), ("c", "d")), MOTIONS, strict=True):
         history(axes[above], axes[below], allen_histories[allen_histories.motion == motion])
         axes[above].sharex(axes[below])
         axes[above].tick_params(labelbottom=False)
-    note(axes["b"], "exact", (0.5, 0.13), xycoords="axes fraction")
+    note(axes["b"], "exact", (0.5, 0.16), xycoords="axes fraction")
     note(axes["b"], "Allen et al.", (0.5, 0.05), xycoords="axes fraction", color=MODEL)
     errors(axes["e"], allen_errors)
     titles = [*MOTIONS.values(), "Median error, slender columns"]

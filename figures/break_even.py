@@ -16,7 +16,7 @@ def words(lowered, reduction):
 
 
 def draw(break_even, break_even_benefit, config):
-    figure, axes = sheet(DOUBLE, 62, ncols=2)
+    figure, axes = sheet(DOUBLE, 56, ncols=2)
     rows = break_even_benefit.set_index(["set", "lowered", "reduction"])
     keys = [*dict.fromkeys(key[1:] for key in rows.index)]  # from the lowest row upwards
     keys.sort(key=lambda key: (key[0] != "column alone", key[0] != "both", -key[1]))
@@ -25,11 +25,9 @@ def draw(break_even, break_even_benefit, config):
             row = 100 * rows.loc[(name, *key), ["benefit", "benefit_low", "benefit_high"]]
             axes[0].hlines(at + off, row.benefit_low, row.benefit_high, color=INK, linewidth=1.1)
             face = INK if marker == "o" else PAPER
-            axes[0].plot(
-                row.benefit, at + off, marker, color=INK, markerfacecolor=face, markersize=4
-            )
-            if key == ("both", 0.0):
-                note(axes[0], name, (row.benefit_high + 0.8, at + off), color=INK)
+            label = name if at == 0 else None
+            how = {"color": INK, "markerfacecolor": face, "markersize": 4, "label": label}
+            axes[0].plot(row.benefit, at + off, marker, **how)
         of = break_even[break_even.set == name]
         places = [at - off for at in range(len(of))]
         errors = 100 * (of.end - of.end_low), 100 * (of.end_high - of.end)
@@ -55,6 +53,7 @@ def draw(break_even, break_even_benefit, config):
     axes[1].set(xlim=(-0.5, len(velocities) - 0.5), ylim=(lossless - 0.5, 14.5))
     axes[1].set_xlabel("Peak ground velocity (m/s)")
     axes[1].set_ylabel(r"Reduction of the column's $\sqrt{r}$ (%)")
+    axes[0].legend(loc="lower right", handletextpad=0.2)
     letter(
         axes,
         [

@@ -144,7 +144,7 @@ def forces(axis, cap, columns):
 
 
 def draw():
-    figure, (left, right) = sheet(DOUBLE, 64, ncols=2)
+    figure, (left, right) = sheet(DOUBLE, 54, ncols=2)
     at_rest, moved = outlines(0.0), outlines(THETA)
     rotation(left, at_rest, moved)
     forces(right, moved[0], moved[1:])

@@ -56,7 +56,7 @@ def over_slenderness(axis, table):
 
 
 def draw(mass_ratio, restitution):
-    figure, (left, right) = sheet(DOUBLE, 66, ncols=2)
+    figure, (left, right) = sheet(DOUBLE, 58, ncols=2)
     over_mass_ratio(left, mass_ratio)
     over_slenderness(right, restitution)
     letter([left, right], ["Size and frequency parameter", "Coefficient of restitution"])
