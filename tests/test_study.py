@@ -5,7 +5,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pandas as pd
 import pytest
+import yaml
 
 from tests.cases import ROOT
 
@@ -69,3 +71,11 @@ def test_a_bad_name_or_folder_is_refused(tmp_path, path, name):
     assert code != 0
     assert "expected" in output
     assert not [*tmp_path.iterdir()]
+
+
+def test_the_study_of_tests_quotes_the_published_gains():
+    config = yaml.safe_load((ROOT / "studies/shake_table/config.yaml").read_text("utf-8"))
+    gains = pd.read_csv(ROOT / "tests/reference/motions_gains.csv")
+    gains = gains[(gains.structure == "trilith") & (gains.mass_ratio == config["mass_ratio"])]
+    percent = 100 * gains.gain[~gains.model.str.startswith("noise")]
+    assert config["synthetic"] == f"{percent.min():.0f} to {percent.max():.0f}"

@@ -26,22 +26,20 @@ def gains(motions, config):
     fell = np.array([overturned_by(structures, motion, factors) for motion in motions])
     lowest = np.where(fell.any(axis=2), factors[fell.argmax(axis=2)], np.nan)
     velocity = np.array([motion.peak_velocity for motion in motions])
-    peak = np.array([motion.peak_acceleration for motion in motions])
-    random, often, n = np.random.default_rng(config["seed"]), config["resamples"], len(motions)
-    resamples = np.vstack([np.arange(n), random.integers(0, n, (often, n))])
-    ratio = np.log(lowest[:, 1] / lowest[:, 0])
-    few = np.where(lowest.max(axis=1) <= config["largest_factor"], ratio, np.nan)
-    means = [100 * np.expm1(np.nanmean(each[resamples], axis=1)) for each in (ratio, few)]
+    length = np.median(velocity / [motion.peak_acceleration for motion in motions])
     levels = np.geomspace(0.5, 2, 50) * np.nanmedian(lowest[:, 0] * velocity)  # PGV, m/s
-    pair = fragility(structures, motions, levels, resamples=often).pairs.isel(pair=0)
+    pair = fragility(structures, motions, levels, resamples=config["resamples"]).pairs.isel(pair=0)
     median = [100 * pair[name].item() for name in ("gain", "gain_low", "gain_high")]
-    return {
-        "all": shown(means[0][0], means[0][1:]),
-        "few": shown(means[1][0], means[1][1:]),
-        "median": "{:.0f} ({:.0f} to {:.0f})".format(*median),
-        "motions": [int(np.isfinite(each).sum()) for each in (ratio, few)],
-        "length": f"{np.median(velocity / peak) / STANDARD_GRAVITY:.3f}",
-    }
+    numbers = {"median": "{:.0f} ({:.0f} to {:.0f})".format(*median)}
+    numbers["length"] = f"{length / STANDARD_GRAVITY:.3f}"
+    for name, largest in (("all", np.inf), ("few", config["largest_factor"])):
+        ratio = np.log(lowest[:, 1] / lowest[:, 0])[lowest.max(axis=1) <= largest]
+        resamples = np.random.default_rng(config["seed"]).choice(
+            ratio, (config["resamples"], len(ratio))
+        )
+        means = (100 * np.expm1(each.mean(axis=-1)) for each in (ratio, resamples))
+        numbers[name], numbers[f"{name}_motions"] = shown(*means), len(ratio)
+    return numbers
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from scipy.optimize import minimize
+from scipy.special import log_expit
 from simulate import CONFIG, FACTORS, candidates, read
 
 NAMES = ("slenderness", "frequency_parameter", "restitution", "scatter")
@@ -23,38 +24,30 @@ def probabilities(overturned, scatters, lapse):
     return lapse / 2 + (1 - lapse) * shares.reshape(len(overturned), -1)
 
 
-def score(probability, fell):
-    """Return the logarithm of the probability of what happened."""
-    return np.where(fell, np.log(probability), np.log1p(-probability))
+def scores(probability, fell):
+    """Return the logarithm of the probability of what happened, shape (tests, candidates)."""
+    return np.log(np.where(fell[:, None], probability, 1 - probability))
 
 
 def likeliest(probability, fell):
     """Return the model that takes the candidate which is likeliest on the other records."""
-    logs = score(probability, fell[:, None])
+    logs = scores(probability, fell)
     return lambda train, test: probability[test, logs[train].sum(axis=0).argmax()]
 
 
-def logistic(x, fell):
-    """Return the fitted function from rows of measures to probabilities."""
-    middle, spread, sign = x.mean(axis=0), x.std(axis=0), np.where(fell, -1, 1)
-
-    def line(terms, x):
-        return terms[0] + (x - middle) / spread @ terms[1:]
-
-    def loss(terms):  # its last term keeps slopes finite where a measure separates all outcomes
-        return np.logaddexp(0, sign * line(terms, x)).sum() + 1e-3 * terms @ terms
-
-    terms = minimize(loss, np.zeros(x.shape[1] + 1)).x
-    return lambda x: np.clip(1 / (1 + np.exp(-line(terms, x))), 1e-9, 1 - 1e-9)
-
-
 def by_measures(measures, fell):
-    """Return the model of the likeliest of several measures of the motions, shape (tests, m)."""
+    """Return the logistic model of the likeliest of several measures, shape (tests, m)."""
+    terms = [(x - x.mean(axis=0)) / x.std(axis=0) for x in measures]
+    terms = [np.insert(x, 0, 1, axis=1) for x in terms]
+
+    def fit(x, fell):  # the last term keeps slopes finite where a measure separates all outcomes
+        signed = np.where(fell[:, None], x, -x)
+        return minimize(lambda b: 1e-3 * b @ b - log_expit(signed @ b).sum(), np.zeros(x.shape[1]))
 
     def model(train, test):
-        fits = [(logistic(x[train], fell[train]), x) for x in measures]
-        best, x = max(fits, key=lambda fit: score(fit[0](fit[1][train]), fell[train]).sum())
-        return best(x[test])
+        fits = [fit(x[train], fell[train]) for x in terms]
+        best = np.argmin([each.fun for each in fits])
+        return np.exp(log_expit(terms[best][test] @ fits[best].x))
 
     return model
 
@@ -68,24 +61,8 @@ def unseen(records, model):
     return probability
 
 
-def threshold(peaks, fell):
-    """Return the peak that separates the outcomes best (NaN at an end), and the exceptions."""
-    order = np.argsort(peaks, kind="stable")
-    below = np.append(0, np.cumsum(fell[order]))
-    wrong = below + (~fell).sum() - (np.arange(len(peaks) + 1) - below)
-    k = wrong.argmin()
-    inside = 0 < k < len(peaks)
-    return np.sqrt(np.prod(peaks[order[k - 1 : k + 1]])) if inside else np.nan, wrong[k]
-
-
-def shown(value, resamples, digits="z.0f"):
-    """Return a value and the 95 % interval of its resamples as text."""
-    three = value, *np.percentile(resamples, [2.5, 97.5])
-    return "{} ({} to {})".format(*(format(x, digits).replace("-", "−") for x in three))
-
-
 def models(tests, fell, simulated, config):
-    """Return the probabilities of the tests by each model, and by all with four numbers."""
+    """Return the probability of each test by each model, without the tests of its record."""
     settings = config["scatters"], config["lapse"]
     one, free = (probabilities(simulated[name], *settings) for name in ("one", "free"))
     measures = np.log(tests[["peak", "velocity"]].to_numpy())
@@ -96,7 +73,17 @@ def models(tests, fell, simulated, config):
         "PGV": by_measures([measures[:, 1:]], fell),
         "PGA and PGV": by_measures([measures], fell),
     }
-    return {name: unseen(tests.record, model) for name, model in fitted.items()}, free
+    return {name: unseen(tests.record, model) for name, model in fitted.items()}
+
+
+def threshold(peaks, fell):
+    """Return the peak that separates the outcomes best (NaN at an end), and the exceptions."""
+    order = np.argsort(peaks, kind="stable")
+    below = np.append(0, np.cumsum(fell[order]))
+    wrong = below + (~fell).sum() - (np.arange(len(peaks) + 1) - below)
+    k = wrong.argmin()
+    inside = 0 < k < len(peaks)
+    return np.sqrt(np.prod(peaks[order[k - 1 : k + 1]])) if inside else np.nan, wrong[k]
 
 
 def thresholds(tests, fell, overturned):
@@ -109,29 +96,35 @@ def thresholds(tests, fell, overturned):
     return pd.DataFrame(rows, columns=["motion", "measured", "exceptions", "computed"])
 
 
+def shown(value, resamples, digits="z.0f"):
+    """Return a value and the 95 % interval of its resamples as text."""
+    three = value, *np.percentile(resamples, [2.5, 97.5])
+    return "{} ({} to {})".format(*(format(x, digits).replace("-", "−") for x in three))
+
+
 def judge(tests, block, simulated, config):
     """Return the numbers of a block, its thresholds, and the probabilities of its tests."""
     fell, elements = tests[[f"block_{block}", f"discrete_elements_{block}"]].to_numpy().T == 1
     records, place = np.unique(tests.record, return_inverse=True)
     random, even = np.random.default_rng(config["seed"]), np.full(len(records), 1 / len(records))
     counts = random.multinomial(len(records), even, config["resamples"])
-    probability, free = models(tests, fell, simulated, config)
+    probability = models(tests, fell, simulated, config)
     first, velocity = probability["Eq. (23), four numbers fitted"], probability["PGV"]
+    probability["discrete elements, chosen in sample"] = elements * 1.0
+    probability["none overturns"] = 0.0 * first
     unclear = np.abs(velocity - 0.5) <= 0.4
-    probability |= {
-        "discrete elements, chosen in sample": elements * 1.0,
-        "none overturns": 0 * first,
-    }
 
-    def row(p):
+    def over_records(values):
+        means = counts @ np.bincount(place, values) / (counts @ np.bincount(place))
+        return shown(values.mean(), means)
+
+    rows, first_right = {}, 100 * ((first > 0.5) == fell)
+    for name, p in probability.items():
         right = 100 * ((p > 0.5) == fell)
-        values = np.array([right, 100 * ((first > 0.5) == fell) - right])
-        sums = [np.bincount(place, each) for each in values]
-        means = np.array(sums) @ counts.T / (counts @ np.bincount(place))
-        texts = [*map(shown, values.mean(axis=1), means)]
-        return *texts, f"{right[unclear].mean():.0f}", f"{np.mean((p - fell) ** 2):.2f}"
+        few = f"{right[unclear].mean():.0f}", f"{np.mean((p - fell) ** 2):.2f}"
+        rows[name] = over_records(right), over_records(first_right - right), *few
 
-    logs = score(free, fell[:, None])
+    logs = scores(probabilities(simulated["free"], config["scatters"], config["lapse"]), fell)
     logs = np.array([logs[place == k].sum(axis=0) for k in range(len(records))])
     numbers = product(candidates(**config)["free"], config["scatters"])
     numbers = np.array([(*number, scatter) for number, scatter in numbers])
@@ -139,28 +132,20 @@ def judge(tests, block, simulated, config):
     fold = (logs.sum(axis=0) - logs).argmax(axis=1)[place] // len(config["scatters"])
     peaks = thresholds(tests, fell, simulated["free"][np.arange(len(tests)), fold])
     ratio = np.log(peaks.computed / peaks.measured).dropna()
-    bins = np.digitize(first, [0.1, 0.5, 0.9])
-    grids = [unseen(tests.record, likeliest(free[:, k::5], fell)) for k in range(5)]
-    grids = [np.mean((p > 0.5) == fell) for p in grids]
+    bins = pd.DataFrame({"p": first, "fell": fell}).groupby(np.digitize(first, [0.1, 0.5, 0.9]))
     scan = (simulated["scan"][:, :, len(FACTORS) // 2] == fell[:, None]).mean(axis=0)
-    return (
-        {
-            "overturned": fell.sum(),
-            "models": {name: row(p) for name, p in probability.items()},
-            "fitted": {n: shown(*x, ".2g") for n, *x in zip(NAMES, best, chosen.T, strict=True)},
-            "calibration": [
-                [first[bins == k].mean(), fell[bins == k].mean()] for k in np.unique(bins)
-            ],
-            "scan": f"{100 * min(scan):.0f} to {100 * max(scan):.0f}",
-            "grids": f"{100 * min(grids):.0f} to {100 * max(grids):.0f}",
-            "unclear": unclear.sum(),
-            "exceptions": peaks.exceptions.sum(),
-            "thresholds": len(ratio),
-            "ratio": [f"{np.exp(ratio.median()):.2f}", f"{ratio.std():.2f}"],
-        },
-        peaks.assign(block=block),
-        first,
-    )
+    numbers = {
+        "overturned": fell.sum(),
+        "models": rows,
+        "fitted": {n: shown(*x, ".2g") for n, *x in zip(NAMES, best, chosen.T, strict=True)},
+        "calibration": bins.mean().to_numpy(),
+        "scan": f"{100 * min(scan):.0f} to {100 * max(scan):.0f}",
+        "unclear": unclear.sum(),
+        "exceptions": peaks.exceptions.sum(),
+        "thresholds": len(ratio),
+        "ratio": [f"{np.exp(ratio.median()):.2f}", f"{ratio.std():.2f}"],
+    }
+    return numbers, peaks.assign(block=block), first
 
 
 def alone(tests, a, b, campaign):
