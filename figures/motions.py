@@ -52,7 +52,7 @@ def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
         dict(zip(inputs["structures"], MARKERS, strict=False)),
     )
     heavier = motions_gains.mass_ratio[motions_gains.mass_ratio < math.inf].max()
-    figure, axes = sheet(DOUBLE, 108, "aabbcc;dddeee", height_ratios=(1, 1.4))
+    figure, axes = sheet(DOUBLE, 103, "aabbcc;dddeee", height_ratios=(1, 1.4))
     for axis, name in zip((axes["a"], axes["b"]), FAMILIES, strict=True):
         of = motions_fragility[motions_fragility.model.str.startswith(name)]
         fragility(axis, of, mass_ratio)

@@ -42,7 +42,7 @@ def without_impact(axis, cells, shape):
 def draw(spectra, config):
     slenderness = config["spectra"]["slendernesses"][1]
     cells = spectra[np.isclose(spectra.slenderness_deg, slenderness)]
-    figure, axes = sheet(DOUBLE, 88, nrows=2, ncols=4, sharey=True)
+    figure, axes = sheet(DOUBLE, 84, nrows=2, ncols=4, sharey=True)
     for row, parameter in zip(axes, ("p", r"\hat{p}"), strict=True):
         for axis, shape in zip(row, PULSES, strict=True):
             panel(axis, cells[cells["shape"] == shape], parameter != "p")

@@ -89,7 +89,7 @@ def curves(axis, table, column):
 def draw(four_structures, moment_rotation):
     every = [part for row in four_structures.itertuples() for part in bodies(row)]
     top = max(11.5, *(bottom + height for _, bottom, _, height, _ in every))
-    tall = 68 * max(1.0, (top + 10) / 23)  # mm, so that words below a high beam keep their places
+    tall = 66 * max(1.0, (top + 10) / 23)  # mm, so that words below a high beam keep their places
     figure, axes = sheet(DOUBLE, tall, "ab;ac", width_ratios=(2.1, 1))
     structures(axes["a"], four_structures, top)
     curves(axes["b"], moment_rotation, "moment")

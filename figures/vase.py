@@ -105,7 +105,7 @@ def minima(axis, vase, poses):
 
 
 def draw(vase, vase_poses):
-    figure, (left, right) = sheet(DOUBLE, 70, ncols=2, width_ratios=(1.6, 1))
+    figure, (left, right) = sheet(DOUBLE, 68, ncols=2, width_ratios=(1.6, 1))
     picture(left, vase_poses)
     minima(right, vase, vase_poses)
     ratio = vase_poses.mass_ratio.iloc[0]

@@ -124,7 +124,7 @@ def draw(spectra, spectra_areas, spectra_histories):
     of = spectra_areas
     of = of[(of.change == "frame") & (of.beside == "column") & (of.mass_ratio == math.inf)]
     example = spectra_histories.iloc[0]
-    figure, axes = sheet(DOUBLE, 76, "AB;AC", width_ratios=(1.2, 1))
+    figure, axes = sheet(DOUBLE, 72, "AB;AC", width_ratios=(1.2, 1))
     plane(axes["A"], spectra, of, example)
     histories(axes["B"], spectra_histories)
     shares(axes["C"], of)

@@ -132,6 +132,6 @@ def test_plane_is_in_the_answer_and_the_abstract():
 
 def test_readme_is_short_and_its_files_are_there():
     assert len(README.splitlines()) <= 70
-    assert len(README.split()) <= 750
+    assert len(README.split()) <= 700
     for path in re.findall(r"\]\(([^)#:]+)\)", README):
         assert (ROOT / path).exists(), path
