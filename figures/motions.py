@@ -53,8 +53,9 @@ def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
     )
     heavier = motions_gains.mass_ratio[motions_gains.mass_ratio < math.inf].max()
     figure, axes = sheet(DOUBLE, 103, "aabbcc;dddeee", height_ratios=(1, 1.4))
+    curves = motions_fragility[motions_fragility.column == inputs["structure"]]
     for axis, name in zip((axes["a"], axes["b"]), FAMILIES, strict=True):
-        of = motions_fragility[motions_fragility.model.str.startswith(name)]
+        of = curves[curves.model.str.startswith(name)]
         fragility(axis, of, mass_ratio)
     axes["a"].set_ylabel("Probability of overturning (–)")
     for name, (colour, at) in STRUCTURES.items():

@@ -44,6 +44,7 @@ def compute(settings, structures, shards):
             for name, one in columns.items():
                 fell = outcomes(shards, f"{model}: {name}") == 1
                 tables["gains"] += gains(model, name, fell[:, :-1], settings, one)
+                tables["fragility"] += curves(model, name, fell.mean(axis=0), settings, one)
         if model in names:
             factors = settings["velocity"] / outcomes(shards, f"{model}: peaks")
             few = factors <= settings["largest_factor"]
@@ -51,8 +52,6 @@ def compute(settings, structures, shards):
                 name = f"{model}, factor at most {settings['largest_factor']:g}"
                 tables["probabilities"].append(row(name, results[few] == 1, settings))
             tables["sensitivity"] += sensitivity(model, results, settings)
-            fell = outcomes(shards, f"{model}: {settings['structure']}")
-            tables["fragility"] += curves(model, fell.mean(axis=0), settings, column)
             turned = outcomes(shards, f"{model}: rotations")
             tables["rotations"] += rotations(model, turned, settings)
     for name in columns:
@@ -139,14 +138,14 @@ def pairs(structure, parts, settings):
     ]
 
 
-def curves(model, shares, settings, column):
-    """Return the probability of each structure over the velocity."""
+def curves(model, name, shares, settings, column):
+    """Return the probability of each structure on a column over the velocity."""
     names = [("column", 0.0), *(("frame", gamma) for gamma in settings["mass_ratios"])]
     names.append(("fixed mass", settings["mass_ratio"]))
     return [
-        {"model": model, "structure": name, "mass_ratio": gamma}
+        {"model": model, "column": name, "structure": structure, "mass_ratio": gamma}
         | {"velocity": velocity, "probability": share}
-        for (name, gamma), of in zip(names, shares, strict=True)
+        for (structure, gamma), of in zip(names, shares, strict=True)
         for velocity, share in zip(frames(settings, column).velocities, of, strict=True)
     ]
 
