@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FAULTS = ROOT / "tests" / "faults" / "faults.yaml"
 LIMIT = 300.0  # s, of the tests of one fault
 Entry = dict[str, Any]
-Found = tuple[str, str]  # caught, survived, not collected or not ended; the test that failed
+Outcome = tuple[str, str]  # caught, survived, not collected or not ended; the test that failed
 
 
 @contextmanager
@@ -51,7 +51,7 @@ def python(tree: Path, *command: str, limit: float | None = None) -> Any:
     return subprocess.run([sys.executable, *command], timeout=limit, **options)
 
 
-def ask(tree: Path, tests: list[str], limit: float | None = None) -> Found:
+def ask(tree: Path, tests: list[str], limit: float | None = None) -> Outcome:
     """Return what tests say of a copy."""
     options = ["-x", "-q", "--tb=no", "-rfE", "-p", "no:cacheprovider"]
     try:
@@ -69,14 +69,14 @@ def texts(tree: Path, entry: Entry) -> tuple[str, str]:
     """Return the text of an entry's file without the fault and with it."""
     right = (tree / entry["file"]).read_text(encoding="utf-8")
     if (times := right.count(entry["old"])) != entry.get("count", 1):
-        sys.exit(f"{entry['name']}: {entry['file']} has {times} times {entry['old']!r}")
+        sys.exit(f"{entry['name']}: {entry['file']} has {times} times {entry['old']!r:.200}")
     return right, right.replace(entry["old"], entry["new"])
 
 
-def outcomes(entries: list[Entry], jobs: int, limit: float) -> Iterator[tuple[Entry, Found]]:
+def outcomes(entries: list[Entry], jobs: int, limit: float) -> Iterator[tuple[Entry, Outcome]]:
     """Yield each entry with what its tests say, after all of these have passed without it."""
 
-    def outcome(entry: Entry) -> Found:
+    def outcome(entry: Entry) -> Outcome:
         tree = free.get()
         right, wrong = texts(tree, entry)
         try:
@@ -91,29 +91,35 @@ def outcomes(entries: list[Entry], jobs: int, limit: float) -> Iterator[tuple[En
         for entry in entries:
             texts(tree, entry)
         used = python(tree, "-c", "import topheavy; print(topheavy.__file__)").stdout
-        found, said = ask(tree, sorted({test for entry in entries for test in entry["tests"]}))
-        if found != "survived" or str(tree) not in used:
-            sys.exit(f"without any fault, with {used.strip()}: {said}")
+        said, test = ask(tree, sorted({test for entry in entries for test in entry["tests"]}))
+        if said != "survived" or str(tree) not in used:
+            sys.exit(f"without any fault, with {used.strip()}: {said} {test}")
         free.put(tree)
         yield from zip(entries, pool.map(outcome, entries), strict=True)
 
 
-def told(path: Path, limit: float = LIMIT) -> Iterator[tuple[Entry, str]]:
-    """Print and yield the outcomes of the entries that the command line names, or of all."""
+def main() -> int:
+    """Print the outcome of each fault that the command line names; return how many survive."""
     parser = argparse.ArgumentParser()
     parser.add_argument("-j", type=int, default=1, dest="jobs", help="how many at a time")
     parser.add_argument("names", nargs="*")
-    given = parser.parse_args()
-    entries = {entry["name"]: entry for entry in yaml.safe_load(path.read_text(encoding="utf-8"))}
-    if unknown := {*given.names} - {*entries}:
-        sys.exit(f"{path} has no {', '.join(sorted(unknown))}")
-    asked = [entries[name] for name in given.names or entries]
-    for entry, (found, test) in outcomes(asked, given.jobs, limit):
-        print(f"{entry['name']}: {found} {test}", flush=True)
-        yield entry, found
+    options = parser.parse_args()
+    entries = {entry["name"]: entry for entry in yaml.safe_load(FAULTS.read_text(encoding="utf-8"))}
+    if unknown := {*options.names} - {*entries}:
+        sys.exit(f"{FAULTS} has no {', '.join(sorted(unknown))}")
+    chosen = [entries[name] for name in options.names or entries]
+    return report(chosen, options.jobs, LIMIT)
+
+
+def report(entries: list[Entry], jobs: int, limit: float) -> int:
+    """Print each entry with its outcome, and how many are caught; return how many are not."""
+    missed = 0
+    for entry, (outcome, test) in outcomes(entries, jobs, limit):
+        print(f"{outcome}: {entry['name']} {test}", flush=True)
+        missed += outcome != "caught"
+    print(f"{len(entries) - missed} of {len(entries)} caught")
+    return missed
 
 
 if __name__ == "__main__":
-    caught = [found == "caught" for _, found in told(FAULTS)]
-    print(f"{sum(caught)} caught, {len(caught) - sum(caught)} survived")
-    sys.exit(not all(caught))
+    sys.exit(bool(main()))
