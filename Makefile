@@ -31,7 +31,7 @@ unlock: | $(UV) ## after a killed run: let the next run begin
 
 check: | $(UV) ## without a run: checksums, and every claim judged again from the published tables
 	@sha256sum --quiet --check docs/SHA256SUMS
-	@$(RUN) python -m steps.check
+	@$(RUN) python -m documents.check
 
 audit: | $(UV) ## without a run: recompute what README says by one file, from the equations
 	@$(RUN) python -I src/audit.py
@@ -64,7 +64,7 @@ study: | $(UV) ## copy studies/bent, as a repository of its own: make study DIR=
 WHEEL = wheels/topheavy-$(shell sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml)-py3-none-any.whl
 
 publish: | $(UV) ## copy the results of a run to docs/ and tests/reference/; read the diff, then commit it
-	@$(RUN) python -m steps.publish
+	@$(RUN) python -m documents.publish
 
 notebooks: | $(UV) ## open the notebooks in JupyterLab
 	@$(UV) run --locked --group notebooks jupyter lab notebooks/paper.ipynb

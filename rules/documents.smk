@@ -47,7 +47,7 @@ for part in ["paper", "beyond"]:
         benchmark:
             f"results/benchmarks/{part}_figures.tsv"
         params:
-            code=code("src/steps/draw.py", *scripts, rule=f"{part}_figures"),
+            code=code("src/documents/draw.py", *scripts, rule=f"{part}_figures"),
             config={
                 name: PAPER[name]
                 for name in (
@@ -57,7 +57,7 @@ for part in ["paper", "beyond"]:
         message:
             f"Drawing the figures ({part})"
         script:
-            "../src/steps/draw.py"
+            "../src/documents/draw.py"
 
 
 for path in sorted(glob("notebooks/*.ipynb")):
@@ -80,11 +80,11 @@ for path in sorted(glob("notebooks/*.ipynb")):
         benchmark:
             f"results/benchmarks/notebook_{name}.tsv"
         params:
-            code=code("src/steps/notebook.py", path, rule=f"notebook_{name}"),
+            code=code("src/documents/notebook.py", path, rule=f"notebook_{name}"),
         message:
             f"Executing the notebook {name}"
         script:
-            "../src/steps/notebook.py"
+            "../src/documents/notebook.py"
 
 
 rule claims:
@@ -99,12 +99,12 @@ rule claims:
         "results/benchmarks/claims.tsv"
     priority: 4
     params:
-        code=code("src/steps/judge.py", rule="claims"),
+        code=code("src/documents/judge.py", rule="claims"),
         settings=CLAIMS,
     message:
         "Judging every claim"
     script:
-        "../src/steps/judge.py"
+        "../src/documents/judge.py"
 
 
 rule comparison:
@@ -120,14 +120,14 @@ rule comparison:
     benchmark:
         "results/benchmarks/comparison.tsv"
     params:
-        code=code("src/steps/compare.py", rule="comparison"),
+        code=code("src/documents/compare.py", rule="comparison"),
         rules=RULES,
         settings=CLAIMS,
         bounds=PAPER["reproducibility"],
     message:
         "Comparing tables with the published ones"
     script:
-        "../src/steps/compare.py"
+        "../src/documents/compare.py"
 
 
 rule verdicts:
@@ -141,7 +141,7 @@ rule verdicts:
     benchmark:
         "results/benchmarks/verdicts.tsv"
     params:
-        code=code("src/steps/verdicts.py"),
+        code=code("src/documents/verdicts.py"),
         rules={
             name: {"script": rule["script"], "tables": rule["tables"]}
             for name, rule in RULES.items()
@@ -149,7 +149,7 @@ rule verdicts:
     message:
         "Writing the list of verdicts"
     script:
-        "../src/steps/verdicts.py"
+        "../src/documents/verdicts.py"
 
 
 for document in ["report", "supplement"]:
@@ -171,12 +171,12 @@ for document in ["report", "supplement"]:
         benchmark:
             f"results/benchmarks/{document}.tsv"
         params:
-            code=code("src/steps/typeset.py", rule=document),
+            code=code("src/documents/typeset.py", rule=document),
             config=PAPER,
         message:
             f"Compiling the {document}"
         script:
-            "../src/steps/typeset.py"
+            "../src/documents/typeset.py"
 
 
 # Documents do not wait for it: they are made, too, when a verdict is not the expected one.
@@ -191,11 +191,11 @@ rule expected:
     benchmark:
         "results/benchmarks/expected.tsv"
     params:
-        code=code("src/steps/expect.py", rule="expected"),
+        code=code("src/documents/expect.py", rule="expected"),
     message:
         "Comparing verdicts with the expected ones"
     script:
-        "../src/steps/expect.py"
+        "../src/documents/expect.py"
 
 
 # On a cluster, only the shards are worth a job.

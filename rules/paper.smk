@@ -285,13 +285,13 @@ rule animation:
     benchmark:
         "results/benchmarks/animation.tsv"
     params:
-        code=code("src/steps/animation.py", "figures/palette.py"),
+        code=code("src/documents/animation.py", "figures/palette.py"),
         settings=PAPER["animation"],
         column=PAPER["structures"]["temple"],
     message:
         "Drawing the animation of README"
     script:
-        "../src/steps/animation.py"
+        "../src/documents/animation.py"
 
 
 rule explorer:
@@ -306,8 +306,8 @@ rule explorer:
     benchmark:
         "results/benchmarks/explorer.tsv"
     params:
-        code=code("src/steps/explorer.py"),
+        code=code("src/documents/explorer.py"),
     message:
         "Writing the page to play with"
     script:
-        "../src/steps/explorer.py"
+        "../src/documents/explorer.py"

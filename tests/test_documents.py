@@ -5,7 +5,7 @@ import re
 import pytest
 import yaml
 
-from steps.verdicts import page
+from documents.verdicts import page
 from tests.cases import ROOT
 
 TEXTS = {name: (ROOT / f"paper/{name}.typ").read_text("utf-8") for name in ("report", "supplement")}

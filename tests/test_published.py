@@ -6,10 +6,10 @@ import re
 import pandas as pd
 import pytest
 
+from documents.check import REFERENCE, findings, published
+from documents.compare import compare, departures
+from documents.expect import faults
 from replication.claims import unexpected
-from steps.check import REFERENCE, findings, published
-from steps.compare import compare, departures
-from steps.expect import faults
 from tests.cases import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -105,7 +105,7 @@ def repeats(tree, target):
 @pytest.mark.usefixtures("done")
 def test_change_elsewhere_repeats_nothing(tree, edited):
     edited("src/topheavy/risk/curve.py", '"""', '""" ')
-    edited("src/steps/draw.py", '"""', '""" ')
+    edited("src/documents/draw.py", '"""', '""" ')
     assert not repeats(tree, TABLE)
 
 

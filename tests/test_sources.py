@@ -36,5 +36,5 @@ def test_versions_are_those_of_the_packages_that_modules_import(monkeypatch):
     packages = versions(imported("src/steps/beyond/engine.py"))
     assert {"python", "numba", "scipy", "mujoco"} <= set(packages)
     assert packages["numpy"] == np.__version__
-    assert "typst" in versions(["src/steps/typeset.py"])
+    assert "typst" in versions(["src/documents/typeset.py"])
     assert "not installed" not in packages.values()

@@ -8,9 +8,9 @@ from copy import deepcopy
 import pandas as pd
 import pytest
 
+from documents.check import REFERENCE, findings, published
+from documents.typeset import checked, texts_of
 from replication.config import read_yaml
-from steps.check import REFERENCE, findings, published
-from steps.typeset import checked, texts_of
 from tests.cases import ROOT
 
 DOCUMENTS = {name: f"paper/{name}.typ" for name in ("report", "supplement")}

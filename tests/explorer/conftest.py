@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from steps.explorer import page
+from documents.explorer import page
 from tests.explorer.browser import Browser
 from topheavy import read_record
 

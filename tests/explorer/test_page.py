@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from steps.explorer import checked_cases, page, titles
+from documents.explorer import checked_cases, page, titles
 from topheavy.ground.shapes import SHAPES
 
 TYPE = """(() => {

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from steps.explorer import blocks, motion
+from documents.explorer import blocks, motion
 from topheavy import Cap, Column, RockingFrame, simulate
 from topheavy.bodies.kinematics import cap_displacement
 from topheavy.forces.contact import column_forces, forces_at

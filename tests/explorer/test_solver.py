@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import topheavy as th
-from steps.explorer import DEFAULTS, blocks, motion, options
+from documents.explorer import DEFAULTS, blocks, motion, options
 from topheavy.ground.shapes import FINITE_SHAPES
 
 STATES = 700  # three structures each

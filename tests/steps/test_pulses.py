@@ -10,10 +10,11 @@ import pytest
 from PIL import Image
 
 import topheavy as th
+from documents import animation
 from replication.config import read_config
 from replication.sections import Paper
 from replication.step import findings_text
-from steps import animation, proven, spectra, spectra_shard, uplift, vase
+from steps import proven, spectra, spectra_shard, uplift, vase
 from steps.shared import cycles
 from steps.shared.histories import history
 from steps.shared.spectrum import FRAME, KEYS, line

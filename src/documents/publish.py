@@ -9,11 +9,11 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
+from documents.check import findings
 from replication.claims import unexpected
 from replication.config import read_config
 from replication.sections import Paper
 from replication.step import findings_text
-from steps.check import findings
 
 REFERENCE, DOCS = Path("tests/reference"), Path("docs")
 CLAIMS = Path("results/claims.json")

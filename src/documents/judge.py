@@ -1,4 +1,4 @@
-"""Judge every claim of a run; one claim: python -m steps.judge eq25"""
+"""Judge every claim of a run; one claim: python -m documents.judge eq25"""
 
 import json
 import sys
@@ -23,7 +23,7 @@ def one(name: str) -> str:
     if path.is_file():
         rows = json.loads(path.read_text("utf-8"))
     else:
-        from steps.check import published
+        from documents.check import published
 
         rows = published()
     matches = [row for row in rows if row["id"] == name]

@@ -1,0 +1,1 @@
+"""What becomes of the results: figures, notebooks, verdicts, documents, and what is published."""
