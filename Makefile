@@ -17,7 +17,7 @@ help: ## list the commands
 	  while IFS='|' read -r name text; do printf '  %-18s %s\n' "$$name" "$$text"; done
 
 reproduce: | $(UV) ## compute every result, check every claim, compile article and supplement (CORES=2)
-	@echo "A first run takes about 5 minutes on two cores; a later one repeats only what a change affects."
+	@echo "A first run takes 2 to 15 minutes on two cores; a later one repeats only what a change affects."
 	@mkdir -p .snakemake && touch .snakemake/begun
 	@$(RUN) python -m snakemake --cores "$(CORES)"; code=$$?; \
 	if [ $$code != 0 ] && ls .snakemake/locks/* > /dev/null 2>&1; then \

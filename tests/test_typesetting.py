@@ -74,7 +74,7 @@ MEANINGLESS = {  # what the key is changed to, and what follows in results/
 def test_every_number_of_a_document_has_a_source_or_a_reason(folder, document):
     count = typeset(folder, document).count
     assert count["number"] > 200
-    assert count["typed"] < 62
+    assert count["typed"] < 60
 
 
 def test_a_number_that_is_typed_into_a_sentence_is_named_with_it(folder, tmp_path):

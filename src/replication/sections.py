@@ -121,6 +121,7 @@ Paper = section(
     verification=section(
         seed=Seed,
         cells=Count,
+        near=Fraction,
         shapes=Items[Shape],
         slendernesses=Range[Degrees],
         mass_ratios=Items[MassRatio],

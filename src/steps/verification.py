@@ -1,7 +1,7 @@
 """Compare the solvers with each other, and our numbers with the literature.
 
 A seeded sample represents all cells of the ensembles. Half of it comes from the grid, and half lies
-within 1 % of a boundary of overturning (in amplitude), where errors of the outcome are likely.
+near a boundary of overturning (in amplitude), where errors of the outcome are likely.
 """
 
 import math
@@ -49,7 +49,7 @@ def cells(settings, shape, linearised):
                 block, Pulse(shape, level, omega), (1.0, settings["amplitudes"][1]), resolution=0.05
             )
             if intervals:
-                ratio = intervals[0].lower[0] * (1.0 + draw.uniform(-0.01, 0.01))
+                ratio = intervals[0].lower[0] * (1.0 + settings["near"] * draw.uniform(-1.0, 1.0))
         yield block, Pulse(shape, ratio * level, omega)
 
 
