@@ -122,9 +122,9 @@ def compare(
             has_to_agree = off[number] > margin
             cell = cells.isel(angular_frequency=0, amplitude=number)
             stories = {
-                (end.overturned, end.impacts),
+                (end.overturned, end.number_of_impacts),
                 (whole.overturned, whole.number_of_impacts),
-                (bool(cell.overturned), int(cell.impacts)),
+                (bool(cell.overturned), int(cell.number_of_impacts)),
             }
         else:
             has_to_agree = off[number] > margin and _is_decided(block, motion, margin)

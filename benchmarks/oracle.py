@@ -19,16 +19,16 @@ from typing import NamedTuple
 import heyoka as hy
 import numpy as np
 
-AT_REST = 1e-13  # peak of the next bounce over α, on ground that cannot lift the block
-LOW = 1e-6  # a rotation below this, over α, is not counted as rocking
+AT_REST = 1e-13  # peak of the next bounce normalised by α, on ground that cannot lift the block
+LOW = 1e-6  # a rotation below this, normalised by α, is not counted as rocking
 
 
 class Found(NamedTuple):
     """The outcome of a block; the peak is NaN if it overturned."""
 
     overturned: bool
-    peak: float
-    impacts: int
+    peak_rotation: float
+    number_of_impacts: int
 
 
 #: The end of each pulse over π/ω, and the phases at which it turns.

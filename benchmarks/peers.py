@@ -62,7 +62,7 @@ heyoka = partial(Flights, hy.par[1] * hy.sin(hy.par[2] * hy.time), False, float,
 
 
 def peak(flights, omega, amplitude):
-    """Return the peak over α by the flights between impacts, NaN if the column overturns."""
+    """Return the peak over α from the flights between impacts; NaN if the column overturns."""
     tan, half = math.tan(ALPHA), math.pi / omega
     size = amplitude * tan
     lift = math.asin(1.0 / amplitude) / omega  # of the first half wave; the second is alike
@@ -79,7 +79,10 @@ def peak(flights, omega, amplitude):
             )
             moment, state = flights.fly(moment, 2.0 * half, state, numbers, pull)
             if flights.event is None:
-                return ended(False, ALPHA, BLOCK.restitution, state, flights.peak, 0).peak / ALPHA
+                return (
+                    ended(False, ALPHA, BLOCK.restitution, state, flights.peak, 0).peak_rotation
+                    / ALPHA
+                )
             if flights.event == "flat":
                 return math.nan
             state, side = (1e-24, -state[1] * BLOCK.restitution), -side
@@ -93,7 +96,7 @@ def peak(flights, omega, amplitude):
 
 def ours(tolerance, omega, amplitude):
     pulse = Pulse("one-sine", amplitude * BLOCK.uplift_acceleration, omega)
-    return judge(BLOCK, pulse, tolerance=tolerance).peak / ALPHA
+    return judge(BLOCK, pulse, tolerance=tolerance).peak_rotation / ALPHA
 
 
 def main():

@@ -71,8 +71,8 @@ def row(name: str, found, ours, nudged, slenderness: float) -> dict:
         "overturned": found.overturned,
         "wrong": differs and not on_boundary,
         "on_boundary": on_boundary,
-        "other_count": not differs and impacts is not None and found.impacts != impacts,
-        "error": math.nan if differs else abs(found.peak - peak) / slenderness,
+        "other_count": not differs and impacts is not None and found.number_of_impacts != impacts,
+        "error": math.nan if differs else abs(found.peak_rotation - peak) / slenderness,
     }
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from benchmarks import fuzz
 from topheavy import Pulse, RockingBlock
-from topheavy.bodies.free_rocking import Ending
+from topheavy.bodies.free_rocking import Outcome
 
 
 def test_every_property_holds(monkeypatch, capsys):
@@ -15,16 +15,16 @@ def test_every_property_holds(monkeypatch, capsys):
     assert all(f"{held.__name__} " in told for held in fuzz.PROPERTIES)
 
 
-@pytest.mark.parametrize("other", [Ending(True, 0.1, 0), Ending(False, 0.100003, 0)])
+@pytest.mark.parametrize("other", [Outcome(True, 0.1, 0), Outcome(False, 0.100003, 0)])
 def test_solvers_that_differ_on_a_decided_outcome_disagree(other):
     block, pulse, one = (
         RockingBlock(2.0, 0.2, 0.9),
         Pulse("constant", 1.0, 6.0),
-        Ending(False, 0.1, 0),
+        Outcome(False, 0.1, 0),
     )
-    with pytest.raises(AssertionError, match="Ending"):
+    with pytest.raises(AssertionError, match="Outcome"):
         fuzz.agree(block, pulse, lambda *_, **__: one, lambda *_, **__: other, "two")
-    near = Ending(False, 0.1 + 1e-8, 0)
+    near = Outcome(False, 0.1 + 1e-8, 0)
     fuzz.agree(block, pulse, lambda *_, **__: one, lambda *_, **__: near, "two")
     turning = iter([one, *[one, other] * 9])
     if other.overturned:

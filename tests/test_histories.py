@@ -53,9 +53,12 @@ def test_samples_only_look(solve, block, pulse, rotation):
     assert (whole.time.shape, whole.time[0]) == ((1000,), 0.0)
     if rotation == 0.0:
         end = th.judge(block, pulse)
-        assert (end.overturned, end.impacts) == (whole.overturned, whole.number_of_impacts)
+        assert (end.overturned, end.number_of_impacts) == (
+            whole.overturned,
+            whole.number_of_impacts,
+        )
         close = 1e-8 * block.slenderness
-        assert end.peak == pytest.approx(whole.peak_rotation, abs=close, nan_ok=True)
+        assert end.peak_rotation == pytest.approx(whole.peak_rotation, abs=close, nan_ok=True)
     for samples in (2, 3, [0.0, 0.01, 0.05], np.linspace(0.0, 1.2 * whole.time[-1], 77)):
         found = solve(block, pulse, rotation=rotation, samples=samples)
         assert (found.overturned, found.number_of_impacts) == (
@@ -84,15 +87,15 @@ def test_history_is_consistent_with_itself(solve, block):
             found = solve(block, pulse, samples=np.linspace(0.0, 2 * pulse.duration, 4001))
             assert found.overturned == (found.outcome == "overturned")
             assert math.isnan(found.peak_rotation) == found.overturned
-            assert np.all(np.diff(found.impacts, prepend=0.0) > 0)
+            assert np.all(np.diff(found.impact_times, prepend=0.0) > 0)
             step = found.time[1]
             slope = (found.rotation[2:] - found.rotation[:-2]) / (2 * step)
-            apart = np.abs(found.time[1:-1, None] - [*found.impacts, math.inf]).min(axis=1)
+            apart = np.abs(found.time[1:-1, None] - [*found.impact_times, math.inf]).min(axis=1)
             aloft = (apart > 2 * step) & (np.abs(found.rotation[1:-1]) > 1e-3) & np.isfinite(slope)
             np.testing.assert_allclose(slope[aloft], found.velocity[1:-1][aloft], atol=2e-3)
             if not found.overturned:
                 assert np.max(np.abs(found.rotation)) <= found.peak_rotation * (1 + 1e-9)
-                forced = np.count_nonzero(found.impacts <= pulse.duration)
+                forced = np.count_nonzero(found.impact_times <= pulse.duration)
                 assert found.number_of_impacts == forced
 
 
@@ -115,7 +118,7 @@ def test_last_sample_of_a_history_is_known_and_one_at_rest_stays(block):
     for k in range(40):
         slow = replace(block, restitution=1.0 - 0.001 * (k % 2), frequency_parameter=1 + 0.1 * k)
         found = th.simulate(slow, rotation=0.5 * slow.slenderness, samples=3)
-        assert (found.outcome, found.time[-1]) == ("rocking", found.impacts[-1])
+        assert (found.outcome, found.time[-1]) == ("rocking", found.impact_times[-1])
         assert np.isfinite([found.rotation, found.velocity]).all()
     lossy = block.with_restitution(0.3)
     found = th.simulate(lossy, SHAKEN, samples=np.linspace(0.0, 60.0, 601), duration=60.0)
@@ -139,7 +142,7 @@ def test_block_rests_at_the_first_impact_whose_bounce_is_negligible(block):
     """An impact counts if it ends a rotation of 1e-6 α; each bounce is 0.81 times as high."""
     ends = [plain.simulate(block, velocity=small_speed(block, x), samples=2)
             for x in (0.9e-6, 1.1e-6, 1.5e-5)]  # fmt: skip
-    assert [len(end.impacts) for end in ends] == [0, 1, 13]
+    assert [len(end.impact_times) for end in ends] == [0, 1, 13]
     assert ends[2].outcome == "rests"
 
 
@@ -150,7 +153,7 @@ def test_threshold_far_ahead_lets_the_block_rest_until_it_is_reached():
         plain.simulate(BLOCK, late, velocity=speed, samples=np.linspace(0.0, 1.5, 31))
         for speed in (0.0, small_speed(BLOCK, 0.9e-6))
     )
-    assert bounced.impacts[0] < 0.5
+    assert bounced.impact_times[0] < 0.5
     assert np.any(alone.rotation != 0.0)
     # to the last bit the motion of a block that had been at rest
     np.testing.assert_array_equal(bounced.rotation[1:], alone.rotation[1:])
@@ -161,8 +164,8 @@ def test_ground_that_is_over_does_not_keep_the_block_from_resting():
     block, nudge = BLOCK.with_restitution(0.3), th.Record(0.05, [0.0, 0.05, *np.zeros(30)])
     shaken, free = (plain.simulate(block, it, rotation=0.1, samples=2) for it in (nudge, None))
     assert shaken.outcome == free.outcome == "rests"
-    assert 0.3 < shaken.impacts[0] < nudge.duration - 0.5
-    assert len(shaken.impacts) == len(free.impacts)
+    assert 0.3 < shaken.impact_times[0] < nudge.duration - 0.5
+    assert len(shaken.impact_times) == len(free.impact_times)
 
 
 @pytest.mark.usefixtures("count_all")
@@ -184,7 +187,7 @@ def test_lossless_block_is_never_said_to_rest():
         assert np.abs(found.rotation).max() <= peak * BLOCK.slenderness
     assert solve(LOSSLESS, th.Pulse("one-sine", 0.2, 5.0)).outcome == "no uplift"
     low = solve(LOSSLESS, rotation=0.25e-6 * (1 - 1e-9), samples=2)  # too low to count
-    assert (low.outcome, len(low.impacts) <= 1) == ("rocking", True)
+    assert (low.outcome, len(low.impact_times) <= 1) == ("rocking", True)
 
 
 @pytest.mark.parametrize("shape", ["one-sine", "ricker-symmetric"])
@@ -198,8 +201,8 @@ def test_lossless_block_rocks_for_ever_or_overturns_by_both_solvers(block, shape
     history = th.simulate(lossless, pulse, samples=50)
     assert history.outcome == ("overturned" if ends[0].overturned else "rocking")
     if not ends[0].overturned:
-        assert len(history.impacts) == history.number_of_impacts + MAX_FREE_IMPACTS
-        assert ends[1].peak == pytest.approx(ends[0].peak, rel=1e-6)
+        assert len(history.impact_times) == history.number_of_impacts + MAX_FREE_IMPACTS
+        assert ends[1].peak_rotation == pytest.approx(ends[0].peak_rotation, rel=1e-6)
 
 
 # ---------------------------------------------------------------------------- ends
@@ -238,7 +241,7 @@ def test_poised_block_that_was_judged_overturned_does_not_bounce():
     _, amplitude = boundary(th.judge, SLOW, 2.2, 2.25)
     history = th.simulate(SLOW, th.Pulse("one-sine", amplitude, 15.7))
     assert history.outcome == "overturned"
-    assert len(history.impacts) == history.number_of_impacts == 1
+    assert len(history.impact_times) == history.number_of_impacts == 1
     assert history.rotation[-1] == pytest.approx(0.25, rel=1e-3)
 
 
@@ -288,7 +291,7 @@ def test_impact_right_after_the_start_is_found():
     record = th.Record(1.0, 0.25 * np.array([-1 - 1e-15, 1 + 1e-15, -1.0, 1.2, 0.0]))
     ends = [judged(block, record) for judged in (th.judge, plain.judge)]
     assert {end.overturned for end in ends} == {False}
-    assert ends[0].peak == pytest.approx(ends[1].peak, rel=1e-6)
+    assert ends[0].peak_rotation == pytest.approx(ends[1].peak_rotation, rel=1e-6)
     # however rounding goes: a root that no interpolation helps to find
     assert sign_change(lambda t: math.copysign(1.0, t - 1e-60), 0.0, 1.0) == pytest.approx(1e-60)
 
@@ -326,4 +329,4 @@ def test_zeros_behind_a_record_change_nothing(judged):
     for zeros in (np.zeros(1), np.zeros(2)):
         shorter = th.Record(0.02, np.append(samples, zeros))
         assert judged(COLUMN, shorter) == judged(COLUMN, longer)
-    assert judged(COLUMN, longer).impacts > 3
+    assert judged(COLUMN, longer).number_of_impacts > 3

@@ -29,7 +29,7 @@ def test_history_is_in_parts_of_alpha_with_its_impacts():
     axes = plot.history(response, FRAME)
     line, impacts, *_ = axes.lines
     assert np.array_equal(line.get_ydata(), response.rotation / FRAME.slenderness)
-    assert len(impacts.get_xdata()) == np.sum(response.impacts <= response.time[-1]) > 0
+    assert len(impacts.get_xdata()) == np.sum(response.impact_times <= response.time[-1]) > 0
     assert "(s)" in axes.get_xlabel()
 
 

@@ -71,7 +71,12 @@ def errors(settings):
                 endings = {name: judge(block, motion) for name, block in shown.items()}
                 exact = endings.pop("exact")
                 cells += [
-                    (name, exact.overturned, other.overturned, other.peak / exact.peak - 1.0)
+                    (
+                        name,
+                        exact.overturned,
+                        other.overturned,
+                        other.peak_rotation / exact.peak_rotation - 1.0,
+                    )
                     for name, other in endings.items()
                 ]
         table = pd.DataFrame(cells, columns=["model", "exact", "falls", "error"])

@@ -18,7 +18,7 @@ from topheavy.bodies.free_rocking import quarter_period
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.bodies.massless_columns import simplified
 from topheavy.derivation.motion import cap_motion
-from topheavy.derivation.notation import NEGATIVE, POSITIVE, acceleration, read, vanishes
+from topheavy.derivation.notation import NEGATIVE, POSITIVE, acceleration, is_identically_zero, read
 from topheavy.derivation.printed import EQUATIONS, rectangular_column
 from topheavy.forces.contact import forces_at
 from topheavy.kernel.step import TOLERANCE
@@ -63,8 +63,8 @@ def three_bodies(frame, cap, pulse, duration, samples):
         for ratio in (frame.restitution, equivalent.restitution)
     )
 
-    before = simulate(frame, pulse, samples=block.impacts - 1e-9 / p).velocity
-    impacts = block.impacts[np.abs(before) > SMALLEST_BOUNCE * p * alpha]
+    before = simulate(frame, pulse, samples=block.impact_times - 1e-9 / p).velocity
+    impacts = block.impact_times[np.abs(before) > SMALLEST_BOUNCE * p * alpha]
     nearest = np.abs(bodies.impacts[None, :] - impacts[:, None]).argmin(axis=1)
     ratios = bodies.velocity_ratios[nearest]
 
@@ -73,7 +73,7 @@ def three_bodies(frame, cap, pulse, duration, samples):
         frame, Cap(cap["span"], cap["depth"] / 2.0), block.rotation, block.velocity, ground
     )
     closed = np.stack([np.stack([c.horizontal, c.vertical], -1) for c in closed.contacts], -2)
-    gap = np.abs(times[:, None] - block.impacts).min(axis=1, initial=np.inf)
+    gap = np.abs(times[:, None] - block.impact_times).min(axis=1, initial=np.inf)
     flying = both & (gap > 1e-3 / p) & (np.abs(block.rotation) > SMALLEST * alpha)
 
     # Fig. 2: at θ < 0 the forces on the cap beam balance its weight and inertia by Eqs. (6), (9).
@@ -114,7 +114,7 @@ def oscillator(frame, pulse):
         yield "rigid_until_uplift", f"uplifts {name}", response.outcome != "no uplift"
 
     response = simulate(frame, pulse, samples=4001)
-    first, second, *_ = response.impacts
+    first, second, *_ = response.impact_times
     before = response.rotation[response.time < first]
     after = response.rotation[(response.time > first) & (response.time < second)]
     yield "rocks_left_then_right", "ground", pulse.excitation(pulse.duration / 8)
@@ -128,8 +128,8 @@ def oscillator(frame, pulse):
         by_energy = quarter_period(block, start * block.slenderness)
         motion = simulate(block, rotation=start * block.slenderness, duration=10.0, samples=2)
         check(
-            abs(motion.impacts[0] - by_energy) < 1e-7,
-            f"quarter periods {motion.impacts[0]}, {by_energy}",
+            abs(motion.impact_times[0] - by_energy) < 1e-7,
+            f"quarter periods {motion.impact_times[0]}, {by_energy}",
         )
         yield "period_depends_on_amplitude", f"quarter period from {start} α, 1/p", by_energy
 
@@ -169,7 +169,7 @@ def structure(column, mass_ratios):
     for version in ("printed", "meant"):
         for name, side in {"eq19": NEGATIVE, "eq22": POSITIVE}.items():
             sides = read(getattr(names[name], version), side), read(names["eq23"].printed, side)
-            same = vanishes((sides[0][1] - sides[1][1]).subs(p), side)
+            same = is_identically_zero((sides[0][1] - sides[1][1]).subs(p), side)
             yield "compact_form", f"{version} {name}", same
 
 

@@ -22,7 +22,7 @@ from topheavy import (
     overturning_intervals,
     simulate,
 )
-from topheavy.bodies.free_rocking import Ending, energy_drift
+from topheavy.bodies.free_rocking import Outcome, energy_drift
 from topheavy.derivation import motion
 from topheavy.derivation.notation import alpha, gamma
 from topheavy.ground.shapes import ELEMENTARY
@@ -58,7 +58,7 @@ def solvers(tightened, is_solvable):
 
     def exact(block, pulse):
         response = simulate_linear_exact(block, pulse, duration=pulse.duration, samples=2)
-        return Ending(response.overturned, response.peak_rotation, 0)
+        return Outcome(response.overturned, response.peak_rotation, 0)
 
     others = {
         "plain solver": plain.judge,
@@ -68,7 +68,7 @@ def solvers(tightened, is_solvable):
 
 
 def agreement(settings, tightened):
-    """Yield the agreement of the Taylor solver with each other: outcomes, and peaks over α."""
+    """Yield how the Taylor solver agrees with itself: outcomes, and peaks normalised by α."""
     for linearised in (False, True):
         for shape in settings["shapes"]:
             sample = list(cells(settings, shape, linearised))
@@ -76,7 +76,7 @@ def agreement(settings, tightened):
             for name, other in solvers(tightened, linearised and shape in ELEMENTARY).items():
                 theirs = [other(*cell) for cell in sample]
                 apart = [
-                    abs(first.peak - second.peak) / block.slenderness
+                    abs(first.peak_rotation - second.peak_rotation) / block.slenderness
                     for (block, _), first, second in zip(sample, ours, theirs, strict=True)
                     if not (first.overturned or second.overturned)
                 ]
@@ -146,16 +146,16 @@ def free_rocking():
     """Yield quantities of free rocking for p = 1 and α = 0.25: by a closed form and by a solver."""
     slender = RockingBlock(1.0, 0.25, math.sqrt(0.7), linearised=True)
     start = simulate(slender, rotation=0.5 * 0.25, samples=2)
-    fifth = np.linspace(start.impacts[4], start.impacts[5], 20001)[1:-1]
+    fifth = np.linspace(start.impact_times[4], start.impact_times[5], 20001)[1:-1]
     peak = np.abs(simulate(slender, rotation=0.5 * 0.25, samples=fifth).rotation).max()
     exact = simulate(
         RockingBlock(1.0, 0.25, 1.0), rotation=0.9 * 0.25, duration=9.0, samples=2
-    ).impacts[0]
+    ).impact_times[0]
     half, least = 0.25 / 2.0, 0.1 * 0.25 / 2.0  # of the angle to the vertical at rest and at first
     angle = math.acos(math.sin(least) / math.sin(half))
     argument = math.asin(math.sin(angle) / math.cos(least))
     rows = {  # θ₀ = α/2: Housner's formulas; θ₀ = 0.9 α: the energy, as an elliptic integral
-        "quarter_period_linear": (math.acosh(2.0), start.impacts[0]),
+        "quarter_period_linear": (math.acosh(2.0), start.impact_times[0]),
         "rotation_after_five_impacts": (1.0 - math.sqrt(1.0 - 0.75 * 0.7**5), peak / 0.25),
         "quarter_period_exact": (ellipkinc(argument, math.cos(least) ** 2), exact),
     }

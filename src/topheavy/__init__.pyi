@@ -1,6 +1,6 @@
 from . import plot, proven
 from .bodies.fixed_mass import FixedMassColumn, MonolithicPortal
-from .bodies.free_rocking import Ending
+from .bodies.free_rocking import Outcome
 from .bodies.response import Response
 from .bodies.structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame, Structure
 from .forces.contact import Cap, ContactForces, Reaction, contact_forces, impact_impulses
@@ -10,7 +10,7 @@ from .ground.records import Record
 from .outcomes.capacity import Capacity, capacity
 from .outcomes.minimum import LowestOverturning, lowest_overturning, overturning_spectrum
 from .outcomes.overturning import overturning_map
-from .outcomes.search import Interval, overturned_by, overturning_intervals, peak_rotations
+from .outcomes.search import FactorInterval, overturned_by, overturning_intervals, peak_rotations
 from .outcomes.simulate import judge, simulate
 from .risk.estimate import Fragility, fragility
 
@@ -22,12 +22,12 @@ __all__ = [
     "Capacity",
     "Column",
     "ContactForces",
-    "Ending",
+    "FactorInterval",
     "FixedMassColumn",
     "Fragility",
-    "Interval",
     "LowestOverturning",
     "MonolithicPortal",
+    "Outcome",
     "Pulse",
     "Reaction",
     "Record",

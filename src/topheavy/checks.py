@@ -34,7 +34,7 @@ MAX_USUAL_FACTOR = 1000.0
 
 _SHORT = Repr()
 _SHORT.maxother = 80
-short = _SHORT.repr
+short_repr = _SHORT.repr
 """Return the repr of a value, and only the beginning and end of a long one."""
 
 _HERE = dirname(__file__)
@@ -58,7 +58,7 @@ def number(name: str, value: Any) -> float:
     if np.ndim(value) == 0 and not isinstance(value, (str, bytes, bool, np.bool_)):
         with suppress(TypeError, ValueError, OverflowError):
             return float(value)
-    raise ValueError(f"{name} is {short(value)}; expected a number")
+    raise ValueError(f"{name} is {short_repr(value)}; expected a number")
 
 
 def finite(name: str, value: Any) -> float:
@@ -91,7 +91,7 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return np.array(array, dtype=float)
 
 
-def axis(name: str, values: ArrayLike, *, zero_allowed: bool) -> NDArray[np.float64]:
+def axis_values(name: str, values: ArrayLike, *, zero_allowed: bool) -> NDArray[np.float64]:
     """Return `values` as an axis of finite floats above (or from) zero, or raise ValueError."""
     array = np.atleast_1d(numbers(name, values))
     if array.ndim != 1 or array.size == 0:
@@ -120,7 +120,7 @@ def not_negative(name: str, value: Any, unit: str = "") -> float:
     return _within_reason(name, number, unit)
 
 
-def cells(name: str, *sizes: int) -> None:
+def number_of_cells(name: str, *sizes: int) -> None:
     """Raise ValueError unless a grid of these sizes fits in memory."""
     if (count := math.prod(sizes)) > MAX_CELLS:
         raise ValueError(f"{name}: {count:.3g} cells; expected at most {MAX_CELLS:.0e}")
@@ -161,14 +161,16 @@ def within_quarter_turn(name: str, value: Any) -> float:
 def within(name: str, value: Any, low: float, high: float) -> float:
     """Return `value` as a float inside [low, high], or raise ValueError that names it."""
     if not low <= (result := number(name, value)) <= high:
-        raise ValueError(f"{name} is {short(value)}; expected a number from {low:g} to {high:g}")
+        raise ValueError(
+            f"{name} is {short_repr(value)}; expected a number from {low:g} to {high:g}"
+        )
     return result
 
 
 def whole(name: str, value: Any, least: int) -> int:
     """Return `value` as an int from `least` on, of Python or NumPy, or raise ValueError."""
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
-        raise ValueError(f"{name} is {short(value)}; expected a whole number from {least} on")
+        raise ValueError(f"{name} is {short_repr(value)}; expected a whole number from {least} on")
     if value < least:
         raise ValueError(f"{name} is {value}; expected a whole number from {least} on")
     return int(value)

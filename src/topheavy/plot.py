@@ -29,7 +29,7 @@ MAX_SHOWN = 1.5
 def history(
     response: Response, structure: Structure, *, label: str = "", axes: Axes | None = None
 ) -> Axes:
-    """Draw the rotation over α against time (s), with the impacts; |θ| = α is dotted.
+    """Draw the rotation normalised by α against time (s), with the impacts; |θ| = α is dotted.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def history(
     axes = _axes(axes)
     alpha = as_block(structure).slenderness
     (line,) = axes.plot(response.time, response.rotation / alpha, label=label or response.outcome)
-    shown = response.impacts[response.impacts <= response.time[-1]]
+    shown = response.impact_times[response.impact_times <= response.time[-1]]
     axes.plot(shown, np.zeros(shown.size), "|", color=line.get_color())
     for limit in (-1.0, 1.0):
         axes.axhline(limit, color="0.5", linestyle=":", linewidth=0.8)
@@ -53,7 +53,7 @@ def history(
 
 
 def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
-    """Draw the peak rotation over α of an `overturning_map`; cells that overturn are grey."""
+    """Draw the peak rotations of a map, normalised by α; cells that overturn are grey."""
     axes = _axes(axes)
     across, up = (outcomes[name] for name in outcomes.peak_rotation.dims)
     peaks = outcomes.peak_rotation.T / outcomes.attrs["slenderness"]

@@ -91,7 +91,7 @@ def test_rotations_are_peaks_over_the_slenderness(shards):
     assert found.shape == (2, 6, 2)
     record = sweep.models(SETTINGS)[LAST][1].record()
     ending = judge(RockingFrame(COLUMN, 1.0), record.scaled(0.3 / record.peak_velocity))
-    assert found[1, 2, 0] == pytest.approx(ending.peak / COLUMN.slenderness)
+    assert found[1, 2, 0] == pytest.approx(ending.peak_rotation / COLUMN.slenderness)
     still = sweep.Question([COLUMN.block()], np.array([9.0]))
     assert sweep.rotations(still, record, None) == math.inf
 

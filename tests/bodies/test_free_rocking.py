@@ -10,9 +10,9 @@ from scipy.special import ellipk, ellipkinc
 from topheavy import Column, RockingBlock, RockingFrame, simulate
 from topheavy.bodies.free_rocking import (
     barrier,
-    ending,
     energy,
     energy_drift,
+    outcome_of_energy,
     potential,
     quarter_period,
 )
@@ -45,7 +45,7 @@ EXACT = RockingBlock(P, ALPHA, 0.9)
 BOTH = pytest.mark.parametrize("block", [EXACT, EXACT.linear()], ids=["exact", "linear"])
 
 
-# ---------------------------------------------------------------------------- ending
+# ---------------------------------------------------------------------------- outcome
 
 LITTLE = 1e-9
 
@@ -57,7 +57,7 @@ def rate_for(block, level, rotation):
 def beside(block, start, level, side):
     """The endings with a little less and a little more than a level of energy."""
     return (
-        ending(block, start, side * rate_for(block, level * (1 + sign * LITTLE), start))
+        outcome_of_energy(block, start, side * rate_for(block, level * (1 + sign * LITTLE), start))
         for sign in (-1, 1)
     )
 
@@ -67,13 +67,17 @@ def beside(block, start, level, side):
 def test_block_within_its_slenderness_needs_the_barrier_to_overturn(block, fraction):
     """One that moves in is judged again behind the impact."""
     below, above = beside(block, fraction * ALPHA, barrier(block), 1)
-    assert (below.overturned, below.impacts) == (False, 0)
-    assert (above.overturned, above.impacts, math.isnan(above.peak)) == (True, 0, True)
-    assert below.peak == pytest.approx(ALPHA, rel=1e-4)
+    assert (below.overturned, below.number_of_impacts) == (False, 0)
+    assert (above.overturned, above.number_of_impacts, math.isnan(above.peak_rotation)) == (
+        True,
+        0,
+        True,
+    )
+    assert below.peak_rotation == pytest.approx(ALPHA, rel=1e-4)
     below, above = beside(block, 0.3 * ALPHA, barrier(block) / block.restitution**2, -1)
-    assert (below.overturned, below.impacts) == (False, 0)
-    assert (above.overturned, above.impacts) == (True, 1)
-    assert below.peak == pytest.approx(ALPHA, rel=1e-4)
+    assert (below.overturned, below.number_of_impacts) == (False, 0)
+    assert (above.overturned, above.number_of_impacts) == (True, 1)
+    assert below.peak_rotation == pytest.approx(ALPHA, rel=1e-4)
 
 
 @BOTH
@@ -81,22 +85,22 @@ def test_block_beyond_its_slenderness_is_lost_unless_it_comes_in_over_the_barrie
     start = 1.3 * ALPHA
     short, saved = beside(block, start, barrier(block), -1)
     assert short.overturned
-    assert all(ending(block, start, rate).overturned for rate in (0.0, 1e-12, 10.0))
+    assert all(outcome_of_energy(block, start, rate).overturned for rate in (0.0, 1e-12, 10.0))
     # the larger of where it is and of what follows
-    assert (saved.overturned, saved.peak) == (False, start)
+    assert (saved.overturned, saved.peak_rotation) == (False, start)
     lossless = block.with_restitution(1.0)  # poised, it survives
-    assert ending(lossless, ALPHA, 0.0).overturned is False
-    assert ending(lossless, math.nextafter(ALPHA, 1.0), 0.0).overturned
+    assert outcome_of_energy(lossless, ALPHA, 0.0).overturned is False
+    assert outcome_of_energy(lossless, math.nextafter(ALPHA, 1.0), 0.0).overturned
 
 
 @BOTH
 @pytest.mark.parametrize("case", [(0.3, 0.5), (0.3, -0.7), (1.1, -0.4), (0.8, -0.05)])
 def test_ending_is_what_integration_finds(block, case):
     tilt, rate = case[0] * ALPHA, case[1] * ALPHA
-    end = ending(block, tilt, rate)
+    end = outcome_of_energy(block, tilt, rate)
     history = simulate(block, rotation=tilt, velocity=P * rate, samples=np.linspace(0, 6, 3001))
     assert not end.overturned
-    assert np.max(np.abs(history.rotation)) == pytest.approx(end.peak, rel=1e-5)
+    assert np.max(np.abs(history.rotation)) == pytest.approx(end.peak_rotation, rel=1e-5)
 
 
 # ---------------------------------------------------------------------------- quarter period
@@ -148,7 +152,7 @@ def test_drift_is_the_whole_range_of_the_energy_over_its_mean():
     response = simulate(EXACT, rotation=0.2, duration=1.0, samples=11)
     velocity = response.velocity.copy()
     velocity[5] *= 2.0  # of one sample, before the first impact
-    wrong = dataclasses.replace(response, velocity=velocity, impacts=np.array([2.0]))
+    wrong = dataclasses.replace(response, velocity=velocity, impact_times=np.array([2.0]))
     pairs = zip(np.abs(response.rotation), velocity, strict=True)
     levels = [energy(EXACT, *pair) for pair in pairs]
     expected = (max(levels) - min(levels)) / np.mean(levels)

@@ -274,11 +274,11 @@ def test_forces_of_a_response_are_those_of_its_states(motion):
     frame = th.RockingFrame(SLENDER, 2.0)
     start = {} if motion is not None else {"rotation": 0.2}
     response = th.simulate(frame, motion, **start, samples=200)
-    assert response.impacts.size > 1
+    assert response.impact_times.size > 1
     forces = th.contact_forces(frame, CAP, response, motion)
     ground = np.zeros(200) if motion is None else motion.excitation(response.time)
     states = forces_at(frame, CAP, response.rotation, response.velocity, ground)
-    away = np.abs(response.time[:, None] - response.impacts).min(axis=1) > 1e-6
+    away = np.abs(response.time[:, None] - response.impact_times).min(axis=1) > 1e-6
     for name, contact in zip(forces.contact.values, states.contacts, strict=True):
         at = forces.sel(contact=name, time=response.time[away])
         assert at.horizontal.values == pytest.approx(
@@ -286,7 +286,7 @@ def test_forces_of_a_response_are_those_of_its_states(motion):
         )
         assert at.vertical.values == pytest.approx(contact.vertical[away], abs=1e-9, nan_ok=True)
     # Both limits at each impact, and the samples of a record, are times of the forces.
-    for impact in response.impacts:
+    for impact in response.impact_times:
         assert (np.abs(forces.time.values - impact) < 1e-7).sum() == 2
     if motion is RECORD:
         inside = motion.time[motion.time <= response.time[-1]]

@@ -39,7 +39,7 @@ def test_results_do_not_depend_on_the_number_of_threads(shape, threads):
 def test_history_that_was_given_up_is_named_in_the_message():
     """A nudge and then a long quiet: without loss, the bounces of 1e-4 each never die."""
     lossless = oscillator(RockingBlock(1.0, 0.2, 1.0))
-    record = record_waveform(lossless.level * np.array([0.0, 1.0, *np.zeros(300)]))
+    record = record_waveform(lossless.uplift_level * np.array([0.0, 1.0, *np.zeros(300)]))
     case = r"1\.0001 times the record with p Δt = 1: .*0\.2 rad, restitution 1, exact equation"
     with pytest.raises(
         ArithmeticError, match=rf"^200000 steps.*{case}.*bounces too often.*smaller"
@@ -58,10 +58,10 @@ def mixture(steps, seed):
         for alpha, restitution in ((5.0, 0.95), (14.0, 0.9), (31.0, 0.3))
         for linearised in (False, True)
     ]
-    which = rng.permutation(np.repeat(np.arange(len(blocks)), 23))
+    block_index = rng.permutation(np.repeat(np.arange(len(blocks)), 23))
     scales = rng.choice(steps, 138)
-    levels = np.array([block.level for block in blocks])[which]
-    return blocks, which, scales, levels * rng.uniform(0.9, 6.0, which.size)
+    levels = np.array([block.uplift_level for block in blocks])[block_index]
+    return blocks, block_index, scales, levels * rng.uniform(0.9, 6.0, block_index.size)
 
 
 @pytest.mark.parametrize("threads", [1, 2])
@@ -70,21 +70,21 @@ def test_histories_of_mixed_blocks_have_the_bits_of_each_alone(shape, threads):
     if shape == "record":
         time = np.linspace(0, 20, 500)
         waveform = record_waveform(np.sin(3 * time) + 0.7 * np.sin(1 + 7.7 * time))
-        blocks, which, scales, amplitudes = mixture([0.011, 0.02, 0.043], 3)
+        blocks, block_index, scales, amplitudes = mixture([0.011, 0.02, 0.043], 3)
     else:
         waveform = pulse_waveform(shape)
-        blocks, which, scales, amplitudes = mixture([0.7, 3.0, 6.1], 3)
-    results = outcomes_of(blocks, waveform, which, scales, amplitudes, threads=threads)
+        blocks, block_index, scales, amplitudes = mixture([0.7, 3.0, 6.1], 3)
+    results = outcomes_of(blocks, waveform, block_index, scales, amplitudes, threads=threads)
     assert 0.1 < results[1].mean() < 0.9
-    for k in range(which.size):
-        alone = grid_of(blocks[which[k]], waveform, scales[k : k + 1], amplitudes[k : k + 1])
+    for k in range(block_index.size):
+        alone = grid_of(blocks[block_index[k]], waveform, scales[k : k + 1], amplitudes[k : k + 1])
         for one, other in zip(results, alone, strict=True):
             np.testing.assert_array_equal(one[k], other[0, 0])
 
 
 def test_history_of_a_mixture_that_was_given_up_is_named_with_its_block():
     lossless = oscillator(RockingBlock(1.0, 0.2, 1.0))
-    record = record_waveform(lossless.level * np.array([0.0, 1.0, *np.zeros(300)]))
+    record = record_waveform(lossless.uplift_level * np.array([0.0, 1.0, *np.zeros(300)]))
     with pytest.raises(ArithmeticError, match=r"1\.0001 times .*p Δt = 1: .*0\.2 rad, restit.* 1,"):
         outcomes_of(
             [BLOCK, lossless],
@@ -117,7 +117,7 @@ def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
     for bound in bounds:
         monkeypatch.setattr(history, bound, getattr(history, bound) // 100)
     for strength, ratio in EXTREMES:
-        motion = forcing_of(pulse_waveform(shape), ratio, strength * there.level, 0.0)
+        motion = forcing_of(pulse_waveform(shape), ratio, strength * there.uplift_level, 0.0)
         assert history.UNRESOLVED not in ends(motion)
     for bound in bounds:
         monkeypatch.setattr(history, bound, 0)

@@ -13,7 +13,7 @@ from topheavy.ground.shapes import PULSE_SHAPES
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
 from topheavy.kernel.forcing import equation, forcing_of, ground, next_uplift, pulse_waveform
 from topheavy.kernel.grid import record_order
-from topheavy.kernel.march import derivatives, powers
+from topheavy.kernel.quiet_pieces import derivatives, powers
 from topheavy.kernel.step import (
     HULL,
     POLYNOMIAL,
@@ -47,7 +47,7 @@ def state_of(block, motion, time, side, rotation, velocity):
     """A rocking state under a pulse, in the kernel's terms."""
     value, rate, _, _ = ground(motion, time)
     sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(rotation), math.cos(rotation))
-    push = -side * value - oscillator(block).level
+    push = -side * value - oscillator(block).uplift_level
     return State(time, side, rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
 
 
@@ -171,9 +171,9 @@ def written(coefficients) -> tuple[np.ndarray, int]:
     return w, degree
 
 
-def found(coefficients, zeros: int = 0, limit: int = MAX_DEGREE) -> np.ndarray:
+def found(coefficients, zero_order: int = 0, limit: int = MAX_DEGREE) -> np.ndarray:
     w, degree = written(coefficients)
-    count = roots(w, POLYNOMIAL, zeros, degree, HULL, STACK, ROOTS, limit)
+    count = roots(w, POLYNOMIAL, zero_order, degree, HULL, STACK, ROOTS, limit)
     return w[ROOTS, :count].copy()
 
 
@@ -191,10 +191,10 @@ def test_every_crossing_of_a_long_step_is_found():
     st.lists(st.floats(0.01, 0.99), min_size=1, max_size=6, unique_by=lambda x: round(x, 2)),
     st.integers(0, 3),
 )
-def test_all_simple_roots_are_isolated(places, zeros):
+def test_all_simple_roots_are_isolated(places, zero_order):
     places = sorted(places)
     factors = polynomial.polymul(polynomial.polyfromroots(places), [1.0, 0.3, 0.7])
-    result = found(np.concatenate([np.zeros(zeros), factors]), zeros)
+    result = found(np.concatenate([np.zeros(zero_order), factors]), zero_order)
     if min(np.diff([-1.0, *places])) > 2e-3:
         np.testing.assert_allclose(result, places, atol=1e-6)
     else:

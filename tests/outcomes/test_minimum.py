@@ -66,12 +66,12 @@ def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
 def planted(monkeypatch, edges):
     """Let the factors between each second pair of ascending edges overturn, under any motion."""
 
-    def outcomes(subjects, which, factors):
+    def outcomes(cases, which, factors):
         overturned = np.searchsorted(edges, factors, side="right") % 2 == 1
         return None, overturned, np.zeros(factors.size, np.int64)
 
-    monkeypatch.setattr(minimum, "outcomes_by", outcomes)
-    monkeypatch.setattr(search, "outcomes_by", outcomes)
+    monkeypatch.setattr(minimum, "outcomes_of_factors", outcomes)
+    monkeypatch.setattr(search, "outcomes_of_factors", outcomes)
 
 
 def test_no_interval_wider_than_the_floor_is_missed_and_its_width_is_measured(monkeypatch):
@@ -169,7 +169,7 @@ def test_spectrum_has_the_minimum_of_each_period(shape):
         minimum = th.lowest_overturning(BLOCK, pulse, ends, floor=1e-3 * uplift)
         assert one == pytest.approx(minimum.acceleration, rel=1e-9, nan_ok=True)
         if not math.isnan(one):
-            after_impact = th.judge(BLOCK, pulse.scaled(one)).impacts > 0
+            after_impact = th.judge(BLOCK, pulse.scaled(one)).number_of_impacts > 0
             assert after_impact == spectrum.after_impact.sel(period=period)
     assert np.isfinite(spectrum.acceleration).sum() >= 1
 

@@ -8,7 +8,7 @@ import pytest
 import topheavy as th
 from steps.shared import plain
 from topheavy.ground.shapes import FINITE_SHAPES
-from topheavy.outcomes.search import SURVIVES, intervals_of_many, outcomes_by, subjects_of
+from topheavy.outcomes.search import SURVIVES, cases_of, intervals_of_many, outcomes_of_factors
 
 BLOCK, COLUMN = th.RockingBlock(2.0, 0.25, 0.9), th.Column(0.5, 2.0)
 LINEAR = th.RockingBlock(1.0, 0.25, 0.9, linearised=True)  # of Zhang & Makris (2001)
@@ -29,9 +29,13 @@ def test_each_cell_of_a_map_is_a_history(block, shape):
     for (i, j), peak in np.ndenumerate(outcomes.peak_rotation.values):
         pulse = th.Pulse(shape, amplitudes[j], frequencies[i])
         end, whole = th.judge(block, pulse), th.simulate(block, pulse, samples=2)
-        cell = (bool(outcomes.overturned[i, j]), int(outcomes.impacts[i, j]))
-        assert cell == (end.overturned, end.impacts) == (whole.overturned, whole.number_of_impacts)
-        close = pytest.approx(end.peak, rel=0, abs=1e-9 * block.slenderness, nan_ok=True)
+        cell = (bool(outcomes.overturned[i, j]), int(outcomes.number_of_impacts[i, j]))
+        assert (
+            cell
+            == (end.overturned, end.number_of_impacts)
+            == (whole.overturned, whole.number_of_impacts)
+        )
+        close = pytest.approx(end.peak_rotation, rel=0, abs=1e-9 * block.slenderness, nan_ok=True)
         assert peak == close
         assert whole.peak_rotation == close
         assert math.isnan(peak) == cell[0]
@@ -98,24 +102,24 @@ def last_of(interval, last):
 def test_brackets_have_the_boundary_between_them(case):
     """Of the search's own outcomes, and of single histories to their tolerance."""
     block, excitation, (first, last), resolution, intervals = case
-    subjects = subjects_of([block], excitation, (first, last))
+    cases = cases_of([block], excitation, (first, last))
     size = max(abs(first), abs(last))
 
     def label(scale):
-        _, overturned, impacts = outcomes_by(subjects, np.zeros(1, int), np.array([scale]))
+        _, overturned, impacts = outcomes_of_factors(cases, np.zeros(1, int), np.array([scale]))
         return impacts[0] if overturned[0] else SURVIVES
 
     for interval in intervals:
         inside, outside = (interval.lower[1], last_of(interval, last)[0]), [interval.lower[0]]
         outside += [interval.upper[1]] if interval.upper else []
-        assert {label(scale) for scale in inside} == {interval.impacts}
-        assert all(x == first or label(x) != interval.impacts for x in outside)
+        assert {label(scale) for scale in inside} == {interval.number_of_impacts}
+        assert all(x == first or label(x) != interval.number_of_impacts for x in outside)
         widths = [np.diff(ends)[0] for ends in (interval.lower, interval.upper) if ends]
         assert max(widths) <= max(1.01e-10 * size, resolution / 1024)
         for scale in (inside[0] + 1e-8 * size, inside[1] - 1e-8 * size):
             if inside[0] < scale < inside[1]:
                 end = th.judge(block, excitation.scaled(scale))
-                assert (end.overturned, end.impacts) == (True, interval.impacts)
+                assert (end.overturned, end.number_of_impacts) == (True, interval.number_of_impacts)
     narrow = [i.lower[1] - i.lower[0] <= 1.01e-10 * size for i in intervals]
     assert sum(narrow) >= 0.5 * len(intervals)
 
@@ -125,7 +129,7 @@ def test_no_interval_wider_than_the_resolution_is_missed(case):
     block, excitation, (first, last), resolution, intervals = case
     fine = np.linspace(first, last, 5 * math.ceil((last - first) / resolution) + 1)
     ends = [th.judge(block, excitation.scaled(scale)) for scale in fine]
-    labels = [end.impacts if end.overturned else SURVIVES for end in ends]
+    labels = [end.number_of_impacts if end.overturned else SURVIVES for end in ends]
     changes = np.flatnonzero(np.diff(labels)) + 1
     runs = zip([0, *changes], [*changes - 1, len(fine) - 1], strict=True)
     wide = [(a, b) for a, b in runs if fine[b] - fine[a] > resolution]
@@ -137,7 +141,7 @@ def test_no_interval_wider_than_the_resolution_is_missed(case):
             for i in middle:
                 assert min(last_of(i, last)[0], high) - max(i.lower[1], low) <= 1e-9
         else:
-            (holding,) = (i for i in middle if i.impacts == labels[a])
+            (holding,) = (i for i in middle if i.number_of_impacts == labels[a])
             assert holding.lower[0] <= low
             assert last_of(holding, math.inf)[1] >= high
 
@@ -147,7 +151,7 @@ def test_bay_just_wider_than_the_resolution_is_found_wherever_the_range_begins()
     for shift in np.linspace(0.0, 1.9, 20):
         ends = (1.0 + shift, 10.0 - shift)
         first, second = th.overturning_intervals(LINEAR, SINE, ends, resolution=0.849)
-        assert (first.impacts, second.impacts, second.upper) == (1, 0, None)
+        assert (first.number_of_impacts, second.number_of_impacts, second.upper) == (1, 0, None)
         assert (first.upper[0], second.lower[1]) == pytest.approx((6.3181, 7.16813), abs=1e-3)
 
 
@@ -201,7 +205,7 @@ def test_factors_on_several_structures_have_the_outcomes_of_judge():
     for structure, row, overturned in zip(several, peaks, outcomes, strict=True):
         np.testing.assert_array_equal(np.isnan(row), overturned)
         np.testing.assert_array_equal(row, th.peak_rotations(structure, SHAKING, factors))
-        expected = [th.judge(structure, SHAKING.scaled(factor)).peak for factor in factors]
+        expected = [th.judge(structure, SHAKING.scaled(factor)).peak_rotation for factor in factors]
         np.testing.assert_allclose(row, expected, rtol=0, atol=1e-8)
 
 
@@ -245,9 +249,14 @@ def test_each_cell_is_the_history_of_a_similar_structure(similar):
         for j, peak in enumerate(PEAKS):
             cell = outcomes.isel(size=i, peak_acceleration=j)
             end = th.judge(structure, MINE.scaled(peak / MINE.peak_acceleration))
-            assert (bool(cell.overturned), int(cell.impacts)) == (end.overturned, end.impacts)
+            assert (bool(cell.overturned), int(cell.number_of_impacts)) == (
+                end.overturned,
+                end.number_of_impacts,
+            )
             close = 1e-8 * structure.block().slenderness
-            np.testing.assert_allclose(float(cell.peak_rotation), end.peak, rtol=0, atol=close)
+            np.testing.assert_allclose(
+                float(cell.peak_rotation), end.peak_rotation, rtol=0, atol=close
+            )
     assert outcomes.overturned.any()
     assert (outcomes.overturned == np.isnan(outcomes.peak_rotation)).all()
     assert not outcomes.peak_rotation[:, 0].any()
@@ -262,10 +271,10 @@ def test_cells_of_a_block_are_those_of_judge_and_of_the_plain_solver(block):
         other = th.RockingBlock(float(p), block.slenderness, block.restitution, block.linearised)
         for j, peak in enumerate(PEAKS[2:]):
             motion = MINE.scaled(peak / MINE.peak_acceleration)
-            here = (bool(outcomes.overturned[i, j]), int(outcomes.impacts[i, j]))
+            here = (bool(outcomes.overturned[i, j]), int(outcomes.number_of_impacts[i, j]))
             for judged in (th.judge, plain.judge):
                 end = judged(other, motion)
-                assert (end.overturned, end.impacts) == here
+                assert (end.overturned, end.number_of_impacts) == here
     assert outcomes.attrs["linearised"] == block.linearised
     assert 3 < outcomes.overturned.sum() < outcomes.overturned.size - 3
 

@@ -13,7 +13,7 @@ from tests.cases import BLOCK, COLUMN
 from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.proven import certified, survives_below
 from topheavy.proven.checking import Check, check
-from topheavy.proven.question import question
+from topheavy.proven.problem import problem_of
 
 OMEGA = 2.0 * math.pi / 1.5
 PULSE = th.Pulse("one-cosine", 1.0, OMEGA)
@@ -48,7 +48,7 @@ def test_both_sides_of_each_minimum_are_proven(structure):
             ending = th.judge(structure, pulse.scaled(factor))
             assert ending.overturned == (outcome == "overturns")
             if ending.overturned:
-                assert certificate["impacts"] == ending.impacts
+                assert certificate["impacts"] == ending.number_of_impacts
 
 
 @pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
@@ -150,12 +150,12 @@ def test_bad_value_is_named(change, message):
 def test_certificate_is_about_the_structure(structure):
     """The checker computes α, p and √r of the dimensions; they are those of the floats."""
     proof = {"outcome": "survives", "impacts": 0, "bits": 112, "order": 4, "events": []}
-    block, floats = Check(question(structure, PULSE, 1.0) | proof).block, structure.block()
+    block, floats = Check(problem_of(structure, PULSE, 1.0) | proof).block, structure.block()
     for interval, number in (
         (block.alpha, floats.slenderness),
-        (block.square, floats.frequency_parameter**2),
+        (block.p_squared, floats.frequency_parameter**2),
         (block.restitution, floats.restitution),
-        (block.level, floats.uplift_acceleration),
+        (block.uplift_level, floats.uplift_acceleration),
         (block.sine, math.sin(floats.slenderness)),
     ):
         assert (interval.high - interval.low) / 2**112 < 1e-30

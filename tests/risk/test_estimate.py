@@ -198,7 +198,7 @@ def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(ens
         for place, structure in enumerate(STRUCTURES.values()):
             scaled = [motion.scaled(level / motion.peak_velocity) for level in LEVELS]
             ends = [th.judge(structure, one) for one in scaled]
-            exceeded = [end.overturned or end.peak > limit for end in ends]
+            exceeded = [end.overturned or end.peak_rotation > limit for end in ends]
             assert result.outcomes[number, place].tolist() == exceeded
     assert (result.outcomes >= ensemble.outcomes).all()
     assert result.outcomes.sum() > ensemble.outcomes.sum() + 10

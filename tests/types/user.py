@@ -14,12 +14,12 @@ from topheavy import (
     Capacity,
     Column,
     ContactForces,
-    Ending,
+    FactorInterval,
     FixedMassColumn,
     Fragility,
-    Interval,
     LowestOverturning,
     MonolithicPortal,
+    Outcome,
     Pulse,
     Reaction,
     Record,
@@ -66,8 +66,8 @@ measured = read_record(sys.argv[1])
 
 for motion in (pulse, shaking, measured.scaled(1.5)):
     assert_type(simulate(bent, motion), Response)
-    assert_type(judge(bent, motion), Ending)
-    assert_type(judge(bent, motion).peak, float)
+    assert_type(judge(bent, motion), Outcome)
+    assert_type(judge(bent, motion).peak_rotation, float)
     assert_type(motion.excitation(0.1), float)
     assert_type(motion.excitation(times), NDArray[np.float64])
     assert_type(motion.excitation([0.0, 1]), NDArray[np.float64])
@@ -98,8 +98,8 @@ print(spectrum.sizes["amplitude"], spectrum["overturned"].to_numpy().sum())
 by_size = overturning_map(bent, measured, [2.0, 5.0], np.linspace(0.2, 1.0, 3))
 print(by_size["overturned"].to_numpy().sum())
 for interval in overturning_intervals(bent, pulse, (0.0, 2.0), resolution=0.5):
-    assert_type(interval, Interval)
-    print(interval.lower[0], interval.impacts)
+    assert_type(interval, FactorInterval)
+    print(interval.lower[0], interval.number_of_impacts)
 cap = Cap(span=6.0, half_depth=0.5)
 frame_motion = simulate(bent, shaking, samples=times)
 forces = frame_forces(bent, cap, frame_motion.rotation, frame_motion.velocity, 0.0 * times)

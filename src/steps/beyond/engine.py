@@ -21,7 +21,7 @@ from topheavy import (
 
 CLOSE = 0.005  # of √r: agreement with Eq. (25)
 NO_REBOUND = 0.2  # coefficient of restitution of a point, below which a contact has no rebound
-HARD = 0.01  # over 1/p: time constant up to which a contact is hard
+HARD = 0.01  # normalised by 1/p: time constant up to which a contact is hard
 FRICTION = 1.0  # of the contacts of a release
 STEPS_IN_CONTACT = 4  # time steps in the time constant, or in the period of a stiffer contact
 HIGHEST = 40.0  # over g tan α: end of the search for the minimum overturning acceleration
@@ -57,7 +57,7 @@ def planar(frame, cap, time_step, **contact):
 def restitution_of(bodies, frame, lean):
     """Return the coefficient of restitution at the first impact after a release at θ = lean α."""
     rotation = lean * frame.slenderness
-    first, second = simulate(frame, rotation=rotation, samples=2).impacts[:2]
+    first, second = simulate(frame, rotation=rotation, samples=2).impact_times[:2]
     return rebound(bodies, rotation, float(first + 0.75 * (second - first)))
 
 

@@ -31,7 +31,7 @@ PLANAR_JOINTS = (
 OVERTURNED = math.pi / 3  # rad, from where no pulse brings a column back; the cap is still aloft
 LOOK = 20  # time steps between looks
 WAIT, REST = 14.0, 0.5  # over p: the longest wait for an outcome, and how long rest has to last
-UPRIGHT = 0.05  # inclination over α
+UPRIGHT = 0.05  # inclination normalised by α
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,8 @@ class Bodies:
     friction : float
         Coefficient μ of all contacts.
     time_constant, damping_ratio : float
-        Of the spring and damper of a contact (MuJoCo's `solref`), over 1/p and of critical damping.
+        Of the spring and damper of a contact (MuJoCo's `solref`), normalised by
+        1/p and by critical damping.
     gaps : array, shape (columns, contacts of an end, 2), optional
         How far each sphere of base and top lies back, m.
 

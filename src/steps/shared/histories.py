@@ -41,7 +41,7 @@ def history(
     step = 2.0 * math.pi / pulse.angular_frequency / CHUNKS
     end = pulse.duration if response.outcome == "no uplift" else response.time[-1]
     kinks = np.arange(round(pulse.duration / step) + 1) * step
-    knots = np.concatenate([kinks, response.impacts])
+    knots = np.concatenate([kinks, response.impact_times])
     knots = np.unique(np.append(knots[knots < end], end))
     aside = ASIDE / frame.frequency_parameter
     knots = knots[np.append(True, np.diff(knots) > 4.0 * aside)]
@@ -51,5 +51,5 @@ def history(
         motion.rotation.reshape(time.shape),
         motion.velocity.reshape(time.shape),
         pulse.excitation(time.ravel()).reshape(time.shape),
-        int((response.impacts < end).sum()),
+        int((response.impact_times < end).sum()),
     )

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from topheavy import checks
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
-from topheavy.checks import short
+from topheavy.checks import short_repr
 
 Vector = NDArray[np.float64]
 Sides = tuple[int, int]
@@ -71,7 +71,7 @@ class ThreeBodies:
 
     def __post_init__(self) -> None:
         if not isinstance(self.frame, RockingFrame):
-            raise ValueError(f"frame is {short(self.frame)}; expected a RockingFrame")
+            raise ValueError(f"frame is {short_repr(self.frame)}; expected a RockingFrame")
         if self.frame.mass_ratio == math.inf:
             raise ValueError("mass_ratio is ∞; expected a finite one, as a column weighs 1 kg here")
         checks.wider_than_column(self.span, 2.0 * self.frame.column.half_width)

@@ -15,11 +15,11 @@ import audit
 from replication.step import check
 from topheavy import Pulse, Record, Response, RockingBlock
 from topheavy import judge as judge_by_taylor
-from topheavy.bodies.free_rocking import Ending
+from topheavy.bodies.free_rocking import Outcome
 from topheavy.bodies.response import initial_motion, sample_times
 from topheavy.bodies.structures import Structure, as_block
 from topheavy.ground.excitation import Excitation, checked_excitation
-from topheavy.ground.vertical import both_records, refuse_fall, without_rest
+from topheavy.ground.vertical import both_records, check_no_free_fall, trim_zeros
 
 NEAR = 1e-3  # of a factor on a motion: how far a change of outcome is at most
 FREE = 60.0  # over p: in which what loses a tenth of its speed at impacts comes to rest
@@ -35,7 +35,7 @@ def ground_of(
     """Return a ground motion of the audit, up to a duration, with its amplitude (g) and ω."""
     if vertical is not None:
         both_records(excitation, vertical)
-        refuse_fall(vertical)
+        check_no_free_fall(vertical)
     if excitation is None:
         return audit.QUIET, 0.0, 1.0
     checked_excitation(excitation, ends=duration is None)
@@ -58,10 +58,10 @@ def ground_of(
 def _lines(record: Record, vertical: Record | None) -> audit.Ground:
     """Return records by straight lines, without the zeros at their end and zero right behind it."""
     if vertical is None:
-        moving = without_rest(record)
+        moving = trim_zeros(record)
         return audit.record(moving.acceleration, moving.time_step)
     times, lines = [], []
-    for part in map(without_rest, (record, vertical)):
+    for part in map(trim_zeros, (record, vertical)):
         time = part.time_step * np.arange(part.acceleration.size)
         times.append(np.append(time, np.nextafter(time[-1], math.inf)))
         lines.append(partial(np.interp, xp=times[-1], fp=np.append(part.acceleration, 0.0)))
@@ -77,12 +77,12 @@ def _body(block: RockingBlock) -> audit.Body:
 
 def judge(
     structure: Structure, excitation: Excitation, *, vertical: Record | None = None
-) -> Ending:
+) -> Outcome:
     """Return how the response to a ground motion ends, as `topheavy.judge`."""
     block = as_block(structure)
     ground, amplitude, omega = ground_of(excitation, vertical)
     end = audit.follow([_body(block)], amplitude, ground, omega, block.linearised)
-    return Ending(bool(end.overturned[0]), float(end.peak[0]), int(end.hits[0]))
+    return Outcome(bool(end.overturned[0]), float(end.peak[0]), int(end.hits[0]))
 
 
 def simulate(
@@ -124,7 +124,7 @@ def simulate(
         time=times,
         rotation=motion.rotation[0],
         velocity=motion.velocity[0] * block.frequency_parameter,
-        impacts=np.array(motion.impacts[0]) / omega,
+        impact_times=np.array(motion.impacts[0]) / omega,
         outcome="overturned" if motion.overturned[0] else outcome,
         number_of_impacts=int(motion.hits[0]),
         peak_rotation=float(motion.peak[0]),

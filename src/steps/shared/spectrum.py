@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from topheavy import Column, Interval, Pulse, RockingBlock, RockingFrame
+from topheavy import Column, FactorInterval, Pulse, RockingBlock, RockingFrame
 from topheavy.outcomes.search import intervals_of_many
 
 FRAME, SIZE, RESTITUTION = CHANGES = "frame", "size", "restitution"
@@ -70,7 +70,7 @@ def search(
     ends: tuple[float, float],
     resolution: float,
     finer: tuple[float, float] | None = None,
-) -> list[list[Interval]]:
+) -> list[list[FactorInterval]]:
     """Return the intervals of each line in a range, none wider than the resolution missed."""
     blocks, pulses = [one.block for one in lines], [one.pulse for one in lines]
     return intervals_of_many(
@@ -78,12 +78,12 @@ def search(
     )
 
 
-def rows_of(of: Line, intervals: Sequence[Interval]) -> Iterator[dict[str, Any]]:
+def rows_of(of: Line, intervals: Sequence[FactorInterval]) -> Iterator[dict[str, Any]]:
     """Yield a row for each interval; it has no upper end where the range ends first."""
     for one in intervals:
         upper = sum(one.upper) / 2.0 if one.upper else None
         yield of.labels | {
             "lower": sum(one.lower) / 2.0,
             "upper": upper,
-            "mode": MODES[one.impacts],
+            "mode": MODES[one.number_of_impacts],
         }

@@ -26,7 +26,7 @@ from steps.shared.newton_euler import (
     uplift_accelerations,
 )
 from topheavy import checks
-from topheavy.bodies.response import Outcome, sample_times
+from topheavy.bodies.response import EndState, sample_times
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
 from topheavy.ground.excitation import Excitation, Segment, checked_excitation, zero_acceleration
 from topheavy.ground.records import Record
@@ -79,7 +79,7 @@ class ThreeBodyResponse:
     impacts: Vector
     velocity_ratios: Vector
     impulses: Vector
-    outcome: Outcome
+    outcome: EndState
 
     @property
     def rotation(self) -> Vector:
@@ -376,7 +376,7 @@ def _sampled(bodies: ThreeBodies, motion: _Motion, times: Vector) -> ThreeBodyRe
             _, forces[k] = accelerations(bodies, arc.sides, q, rates, *arc.components(t))
             drift[k] = np.hypot(*bodies.gaps(arc.sides, q).T).max()
     moved = any(arc.course is not None for arc in motion.arcs)
-    outcome: Outcome = "rests" if moved else "no uplift"
+    outcome: EndState = "rests" if moved else "no uplift"
     if motion.fallen or motion.moving:
         outcome = "overturned" if motion.fallen else "rocking"
     return ThreeBodyResponse(

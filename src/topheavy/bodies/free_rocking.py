@@ -22,31 +22,31 @@ from topheavy.bodies.response import Response
 from topheavy.bodies.structures import RockingBlock, Structure
 
 
-class Ending(NamedTuple):
+class Outcome(NamedTuple):
     """How a motion ends when the ground has come to rest.
 
     Attributes
     ----------
     overturned : bool
-    peak : float
+    peak_rotation : float
         Largest φ still to come, rad; NaN if overturned.
-    impacts : int
+    number_of_impacts : int
         Impacts on the way to overturning; 0 for a survivor, whose bouncing is not counted.
 
     Examples
     --------
-    >>> th.judge(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0).scaled(0.18)).impacts
+    >>> th.judge(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0).scaled(0.18)).number_of_impacts
     5
     """
 
     overturned: bool
-    peak: float
-    impacts: int
+    peak_rotation: float
+    number_of_impacts: int
 
 
 @register_jitable
 def potential(block: Any, rotation: float) -> float:
-    """Return w(φ), the potential energy over I·p², of φ in rad."""
+    """Return w(φ), the potential energy normalised by I·p², of φ in rad."""
     half, alpha = 0.5 * rotation, block.slenderness
     if block.linearised:
         return float(rotation * (alpha - half))
@@ -80,7 +80,7 @@ def turning_rotation(block: Any, level: float) -> float:
 
 
 @register_jitable
-def ending(block: Any, rotation: float, velocity: float) -> Ending:
+def outcome_of_energy(block: Any, rotation: float, velocity: float) -> Outcome:
     """Return how the motion ends from the state (φ in rad, φ̇/p) at the end of the forcing.
 
     Overturned is: φ > α and moving outward, or inward with less energy than the barrier; or φ ≤ α,
@@ -89,15 +89,15 @@ def ending(block: Any, rotation: float, velocity: float) -> Ending:
     """
     excess = surplus(block, rotation, velocity)
     if rotation > block.slenderness and (velocity >= 0.0 or excess < 0.0):
-        return Ending(True, math.nan, 0)
+        return Outcome(True, math.nan, 0)
     if velocity > 0.0 and excess >= 0.0:
-        return Ending(True, math.nan, 0)
+        return Outcome(True, math.nan, 0)
     level = 0.5 * velocity * velocity + potential(block, rotation)
     if velocity < 0.0:
         level *= block.restitution * block.restitution
         if level >= barrier(block):  # it passes through upright and overturns to the other side
-            return Ending(True, math.nan, 1)
-    return Ending(False, max(rotation, turning_rotation(block, level)), 0)
+            return Outcome(True, math.nan, 1)
+    return Outcome(False, max(rotation, turning_rotation(block, level)), 0)
 
 
 def energy(block: RockingBlock, rotation: float, rate: float) -> float:
@@ -139,13 +139,13 @@ def quarter_period(structure: Structure, rotation: float) -> float:
 
 
 def energy_drift(block: RockingBlock, response: Response, flights: int) -> float:
-    """Return the largest change of energy over the first flights of free rocking, over the energy.
+    """Return the largest change of energy over the first flights of free rocking, relative to it.
 
     Between impacts the moment–rotation curve of Fig. 1(b) encloses no area, so that any change is
     an error of the solver.
     """
     motion = zip(np.abs(response.rotation), np.abs(response.velocity), strict=True)
     levels = np.array([energy(block, phi, rate) for phi, rate in motion])
-    flight = np.searchsorted(response.impacts[:flights], response.time, side="right")
+    flight = np.searchsorted(response.impact_times[:flights], response.time, side="right")
     inside = [levels[flight == number] for number in range(flights)]
     return max(float(np.ptp(level) / level.mean()) for level in inside)

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from topheavy import checks
 from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.bodies.structures import Column, RockingFrame, Structure, checked_two_columns
-from topheavy.checks import short
+from topheavy.checks import short_repr
 
 Array = NDArray[np.float64]
 
@@ -91,8 +91,8 @@ def outlines(
         return {"column": column_outline(structure, rotation)}
     if not isinstance(structure, FixedMassColumn | MonolithicPortal | RockingFrame):
         raise ValueError(
-            f"structure is {short(structure)}; expected a Column, FixedMassColumn, RockingFrame or "
-            "MonolithicPortal, which have dimensions"
+            f"structure is {short_repr(structure)}; expected a Column, FixedMassColumn, "
+            "RockingFrame or MonolithicPortal, which have dimensions"
         )
     if isinstance(structure, RockingFrame):
         checked_two_columns(structure)

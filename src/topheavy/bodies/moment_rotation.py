@@ -9,7 +9,7 @@ from topheavy.bodies.structures import Column, RockingFrame
 
 
 def restoring_moment(structure: Column | RockingFrame, rotation: ArrayLike) -> NDArray[np.float64]:
-    """Return the restoring moment over m_c g R at the rotations θ (rad, signed), of one column.
+    """Return the restoring moment normalised by m_c g R of one column at rotations θ (rad, signed).
 
     For the solitary column it is sin(α − |θ|), opposed to the rotation. In the frame each column
     also carries half of the cap beam at the end of its diagonal, twice as far from the pivot; the

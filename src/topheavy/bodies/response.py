@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 MAX_SAMPLES = 10_000_000
 """Largest number of samples: three arrays of 80 MB."""
 
-Outcome = Literal["no uplift", "rests", "rocking", "overturned"]
+EndState = Literal["no uplift", "rests", "rocking", "overturned"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -32,7 +32,7 @@ class Response:
     rotation, velocity : ndarray, shape (n,)
         θ in rad and θ̇ in rad/s, signed; NaN after the end of a history that overturned or was cut
         off while rocking.
-    impacts : ndarray, shape (m,)
+    impact_times : ndarray, shape (m,)
         Times of the impacts, s. Impacts that end a rotation of 1e-6 α or less are left out, since
         a block that comes to rest has infinitely many.
     outcome : {"no uplift", "rests", "rocking", "overturned"}
@@ -55,8 +55,8 @@ class Response:
     time: NDArray[np.float64]
     rotation: NDArray[np.float64]
     velocity: NDArray[np.float64]
-    impacts: NDArray[np.float64]
-    outcome: Outcome
+    impact_times: NDArray[np.float64]
+    outcome: EndState
     number_of_impacts: int
     peak_rotation: float
 

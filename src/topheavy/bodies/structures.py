@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from topheavy import checks
-from topheavy.checks import short
+from topheavy.checks import short_repr
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
@@ -269,7 +269,7 @@ def as_block(structure: Structure) -> RockingBlock:
     """Return the rocking block of a structure, or raise ValueError for anything else."""
     if isinstance(structure, type) or not callable(getattr(structure, "block", None)):
         raise ValueError(
-            f"structure is {short(structure)}; expected a Column, a RockingFrame or another "
+            f"structure is {short_repr(structure)}; expected a Column, a RockingFrame or another "
             "structure with a method block()"
         )
     return structure.block()
@@ -278,7 +278,7 @@ def as_block(structure: Structure) -> RockingBlock:
 def checked_column(value: object) -> None:
     """Raise ValueError unless an argument is a Column."""
     if not isinstance(value, Column):
-        raise ValueError(f"column is {short(value)}; expected a Column")
+        raise ValueError(f"column is {short_repr(value)}; expected a Column")
 
 
 def checked_mass_ratio(value: float) -> float:

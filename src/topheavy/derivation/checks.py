@@ -14,8 +14,8 @@ from topheavy.derivation.notation import (
     alpha,
     g,
     ground_acceleration,
+    is_identically_zero,
     read,
-    vanishes,
 )
 from topheavy.derivation.printed import (
     EQUATIONS,
@@ -74,7 +74,7 @@ def residuals(equation: str, side: Side) -> list[sp.Expr]:
 def follows(equation: str, premises: Premises, sides: Iterable[Side]) -> bool:
     """Whether an equation is an identity on these sides, with the derived values substituted."""
     return all(
-        vanishes(residual.subs(premises(side)), side)
+        is_identically_zero(residual.subs(premises(side)), side)
         for side in sides
         for residual in residuals(equation, side)
     )
@@ -109,7 +109,9 @@ def _check_step(
     system = [r for source in sources for r in residuals(printed[source], NEGATIVE)]
     (solution,) = sp.linsolve(system, eliminated)
     values = dict(zip(eliminated, solution, strict=True))
-    result = all(vanishes(r.subs(values), NEGATIVE) for r in residuals(printed[target], NEGATIVE))
+    result = all(
+        is_identically_zero(r.subs(values), NEGATIVE) for r in residuals(printed[target], NEGATIVE)
+    )
     title = ", ".join(f"({source[2:]})" for source in sources) + f" → ({target[2:]})"
     return PrintedCheck(name, None, NEGATIVE.label, title, result)
 

@@ -25,13 +25,13 @@ from topheavy.derivation.motion import (
     kinetic_energy,
     lagrange_equation,
     largest_slenderness,
+    moment,
     potential_energy,
     quadratic_terms,
     rate,
     restitution,
     size_ratio,
     tangent_form,
-    turning,
     uplift_acceleration,
 )
 from topheavy.derivation.notation import (
@@ -52,10 +52,10 @@ from topheavy.derivation.notation import (
     ground_acceleration,
     ground_velocity,
     half_depth,
+    is_identically_zero,
     m_b,
     m_c,
     read,
-    vanishes,
     velocity,
 )
 from topheavy.derivation.printed import EQUATIONS, frame
@@ -74,7 +74,7 @@ def cap_moment(side: Side) -> sp.Expr:
     """
     span, shift = sp.Symbol("L", positive=True), -side.sign * R * sp.sin(alpha)
     left, right = (sp.Matrix([shift + end * span / 2, -half_depth]) for end in (-1, 1))
-    return turning(left, sp.Matrix([F_x1, F_z1])) + turning(right, sp.Matrix([F_x2, F_z2]))
+    return moment(left, sp.Matrix([F_x1, F_z1])) + moment(right, sp.Matrix([F_x2, F_z2]))
 
 
 def cap_moment_is_not_needed() -> bool:
@@ -82,7 +82,7 @@ def cap_moment_is_not_needed() -> bool:
     for side in SIDES:
         motion = frame_motion(side)
         shares = sp.diff(cap_moment(side).subs(motion), F_z1)
-        if F_z1 in motion[acceleration].free_symbols or vanishes(shares, side):
+        if F_z1 in motion[acceleration].free_symbols or is_identically_zero(shares, side):
             return False
     return True
 
@@ -92,7 +92,7 @@ def follows_if_a_column_weighs(share: sp.Expr) -> bool:
     masses = {m_c: share * m_c, I_o: sp.Rational(4, 3) * share * m_c * R**2, m_b: 2 * gamma * m_c}
     factor = (1 + 2 * gamma) / (1 + 3 * gamma)
     return all(
-        vanishes(
+        is_identically_zero(
             (frame_motion(side)[acceleration] - factor * column_motion(side)).subs(
                 masses, simultaneous=True
             ),
@@ -112,13 +112,16 @@ def m_c_is_the_mass_of_each_column() -> bool:
 def quadratic_terms_cancel() -> bool:
     """The terms in θ̇² of ü and v̈ are not zero each, and cancel in the equation of motion."""
     terms = [(side, *quadratic_terms(side)) for side in SIDES]
-    return all(first != 0 and vanishes(first + second, side) for side, first, second in terms)
+    return all(
+        first != 0 and is_identically_zero(first + second, side) for side, first, second in terms
+    )
 
 
 def lagrange_agrees() -> bool:
     """Energies alone give the same equation of motion as the equilibrium of the three bodies."""
     return all(
-        vanishes(equation_of_motion(side).rhs - lagrange_equation(side).rhs, side) for side in SIDES
+        is_identically_zero(equation_of_motion(side).rhs - lagrange_equation(side).rhs, side)
+        for side in SIDES
     )
 
 
@@ -126,7 +129,7 @@ def frame_rocks_as_a_column() -> bool:
     """The frame's θ̈ is its column's times (1 + 2γ)/(1 + 3γ), for every θ and ground motion."""
     factor = (1 + 2 * gamma) / (1 + 3 * gamma)
     return all(
-        vanishes(
+        is_identically_zero(
             (frame_motion(side)[acceleration] - factor * column_motion(side)).subs(
                 RECTANGULAR_OF_TWO
             ),
@@ -139,7 +142,7 @@ def frame_rocks_as_a_column() -> bool:
 def frame_uplifts_with_its_column() -> bool:
     """Column and frame start to rock at the same ground acceleration, ±g tan α, for every γ."""
     return all(
-        vanishes(uplift_acceleration(motion, side) + side.sign * g * sp.tan(alpha), side)
+        is_identically_zero(uplift_acceleration(motion, side) + side.sign * g * sp.tan(alpha), side)
         for side in SIDES
         for motion in (column_motion(side), frame_motion(side)[acceleration])
     )
@@ -157,7 +160,7 @@ def ground_to_the_right_rocks_to_the_left() -> bool:
 def energy_is_conserved_between_impacts() -> bool:
     """Over resting ground the kinetic and potential energies of the frame add up to a constant."""
     return all(
-        vanishes(
+        is_identically_zero(
             side.time_derivative(kinetic_energy(side) + potential_energy(side))
             .subs(frame_motion(side))
             .subs(_AT_REST),
@@ -170,7 +173,7 @@ def energy_is_conserved_between_impacts() -> bool:
 def restoring_moment_falls() -> bool:
     """The column's restoring moment is mgR sin(α − |θ|): mgR sin α at θ = 0, zero at |θ| = α."""
     return all(
-        vanishes(
+        is_identically_zero(
             I_o * column_motion(side).subs(_AT_REST) + side.sign * m_c * g * R * sp.sin(side.lean),
             side,
         )
@@ -201,7 +204,7 @@ def shear_was_reversed() -> bool:
     holds = {}
     for number in (13, 20, 21):
         left, right = read(printed[number], POSITIVE)
-        holds[number] = vanishes((left - right).subs(mirrored), POSITIVE)
+        holds[number] = is_identically_zero((left - right).subs(mirrored), POSITIVE)
     return holds == {13: False, 20: True, 21: True}
 
 
@@ -222,27 +225,27 @@ def _changes_sign_at(expression: sp.Expr, slenderness: sp.Expr) -> bool:
 def kinetic_energy_ratio_is_velocity_ratio_squared() -> bool:
     """Kinetic energy is θ̇² times the same constant at every θ of either side: r = (θ̇_2/θ̇_1)²."""
     left, right = (kinetic_energy(side).subs(ground_velocity, 0) for side in SIDES)
-    same = vanishes(left - right, NEGATIVE)
+    same = is_identically_zero(left - right, NEGATIVE)
     return same and not any(left.has(side.rotation) or right.has(side.rotation) for side in SIDES)
 
 
 def both_impacts_are_alike() -> bool:
     """√r is the same whether the frame changes over to the right or to the left."""
-    return vanishes(restitution(POSITIVE) - restitution(NEGATIVE), POSITIVE)
+    return is_identically_zero(restitution(POSITIVE) - restitution(NEGATIVE), POSITIVE)
 
 
 def restitution_is_below_the_columns() -> bool:
     """√r of the frame is smaller than its column's by 3γ sin²α / (2(1 + 3γ)), for every γ > 0."""
     deficit = 3 * gamma * sp.sin(alpha) ** 2 / (2 * (1 + 3 * gamma))
     difference = column_restitution() - restitution()
-    return vanishes(difference - deficit, POSITIVE) and _positive(difference)
+    return is_identically_zero(difference - deficit, POSITIVE) and _positive(difference)
 
 
 def restitution_tends_to_its_limits() -> bool:
     """√r of the frame is the column's 1 − (3/2) sin²α at γ = 0, and tends to cos 2α as γ → ∞."""
     light = restitution().subs(gamma, 0) - (1 - sp.Rational(3, 2) * sp.sin(alpha) ** 2)
     heavy = sp.limit(restitution(), gamma, sp.oo) - sp.cos(2 * alpha)
-    return vanishes(light, POSITIVE) and vanishes(heavy, POSITIVE)
+    return is_identically_zero(light, POSITIVE) and is_identically_zero(heavy, POSITIVE)
 
 
 def impact_never_adds_energy() -> bool:
@@ -253,14 +256,14 @@ def impact_never_adds_energy() -> bool:
 def frame_rocks_on_below_its_largest_slenderness() -> bool:
     """√r of the frame is positive exactly for tan²α < 2(1 + 3γ)/(1 + 6γ)."""
     stated = sp.atan(sp.sqrt(2 * (1 + 3 * gamma) / (1 + 6 * gamma)))
-    same = vanishes(sp.tan(stated) ** 2 - sp.tan(largest_slenderness()) ** 2, POSITIVE)
+    same = is_identically_zero(sp.tan(stated) ** 2 - sp.tan(largest_slenderness()) ** 2, POSITIVE)
     return same and _changes_sign_at(restitution(), stated)
 
 
 def frame_loses_the_larger_share_when_slender() -> bool:
     """r of the frame is smaller than its column's exactly for tan²α < 4(1 + 3γ)/(2 + 9γ)."""
     stated = sp.atan(sp.sqrt(4 * (1 + 3 * gamma) / (2 + 9 * gamma)))
-    same = vanishes(sp.tan(stated) ** 2 - sp.tan(energy_slenderness()) ** 2, POSITIVE)
+    same = is_identically_zero(sp.tan(stated) ** 2 - sp.tan(energy_slenderness()) ** 2, POSITIVE)
     return same and _changes_sign_at(column_restitution() ** 2 - restitution() ** 2, stated)
 
 
@@ -309,7 +312,7 @@ def base_shear_grows_after_uplift() -> bool:
     rigid frame that is held against uplift has n = 1. So the shear continues at uplift.
     """
     return all(
-        vanishes(
+        is_identically_zero(
             after_uplift(side)
             + side.sign * sp.tan(alpha)
             - slope() * (ground_acceleration / g + side.sign * sp.tan(alpha)),

@@ -25,7 +25,7 @@ from topheavy.derivation.notation import (
     g,
     gamma,
     ground_acceleration,
-    vanishes,
+    is_identically_zero,
     velocity,
     vertical_acceleration,
 )
@@ -53,7 +53,7 @@ def size_only_slows_time() -> bool:
     """
     slowed = {R: _k * R}
     return all(
-        vanishes(_k * motion.subs(slowed) - motion, side) and not motion.has(velocity)
+        is_identically_zero(_k * motion.subs(slowed) - motion, side) and not motion.has(velocity)
         for side in SIDES
         for motion in (column_motion(side).subs(RECTANGULAR), equation_of_motion(side).rhs)
     )
@@ -61,18 +61,24 @@ def size_only_slows_time() -> bool:
 
 def columns_count_only_in_the_mass_ratio() -> bool:
     """A cap beam on N columns obeys Eqs. (23) and (24), in which N does not occur."""
-    return all(vanishes(frame_of_columns(side) - printed_motion(side), side) for side in SIDES)
+    return all(
+        is_identically_zero(frame_of_columns(side) - printed_motion(side), side) for side in SIDES
+    )
 
 
 def lagrange_agrees_for_columns() -> bool:
     """Energies give the same equation of motion for N columns, vertical acceleration included."""
-    return all(vanishes(frame_of_columns(side) - lagrange_motion(side), side) for side in SIDES)
+    return all(
+        is_identically_zero(frame_of_columns(side) - lagrange_motion(side), side) for side in SIDES
+    )
 
 
 def impacts_do_not_count_the_columns() -> bool:
     """√r of a cap beam on N columns is that of Eq. (25), with γ = m_b/(N m_c)."""
     return all(
-        vanishes(restitution_of_columns(side).subs(RECTANGULAR) - restitution(), POSITIVE)
+        is_identically_zero(
+            restitution_of_columns(side).subs(RECTANGULAR) - restitution(), POSITIVE
+        )
         for side in SIDES
     )
 
@@ -90,9 +96,9 @@ def vertical_acceleration_adds_to_gravity() -> bool:
         level = equation_of_motion(side).rhs
         ratio = (1 + 2 * gamma) / (1 + 3 * gamma)
         identities += [
-            vanishes(frame - level.subs(heavier), side),
-            vanishes(column - column_motion(side).subs(RECTANGULAR).subs(heavier), side),
-            vanishes(frame - ratio * column, side),
+            is_identically_zero(frame - level.subs(heavier), side),
+            is_identically_zero(column - column_motion(side).subs(RECTANGULAR).subs(heavier), side),
+            is_identically_zero(frame - ratio * column, side),
         ]
     return all(identities)
 
@@ -103,7 +109,7 @@ def vertical_acceleration_changes_the_uplift() -> bool:
     for side in SIDES:
         (level,) = sp.solve(side.upright(frame_of_columns(side)), ground_acceleration)
         stated = -side.sign * (g + vertical_acceleration) * sp.tan(alpha)
-        identities.append(vanishes(level - stated, side))
+        identities.append(is_identically_zero(level - stated, side))
     return all(identities)
 
 
@@ -111,7 +117,7 @@ def vertical_acceleration_is_a_change_of_gravity_and_push() -> bool:
     """θ̈ = (1 + v̈_g/g) times that over ground with ü_g/(1 + v̈_g/g) and no vertical motion."""
     share = 1 + vertical_acceleration / g
     return all(
-        vanishes(
+        is_identically_zero(
             frame_of_columns(side)
             - share
             * equation_of_motion(side).rhs.subs(ground_acceleration, ground_acceleration / share),

@@ -23,12 +23,12 @@ from topheavy.derivation.motion import (
     column_restitution,
     frequency_ratio,
     jump,
+    moment,
     rate,
     restitution,
     solved,
     squared_frequency,
     tangent_form,
-    turning,
     uplift_acceleration,
 )
 from topheavy.derivation.notation import (
@@ -46,8 +46,8 @@ from topheavy.derivation.notation import (
     ground_acceleration,
     ground_velocity,
     half_depth,
+    is_identically_zero,
     m_c,
-    vanishes,
     velocity,
     velocity_after,
     velocity_before,
@@ -76,7 +76,7 @@ def fixed_motion(side: Side) -> sp.Expr:
     """
     top = above_top(side, half_depth)
     inertia = I_o + I_b + _CAP * top.dot(top)
-    loads = sum(turning(point, mass * LOADS) for mass, point in _masses(side))
+    loads = sum(moment(point, mass * LOADS) for mass, point in _masses(side))
     balance = (inertia * acceleration + loads).subs(vertical_acceleration, 0)
     return solved(balance.subs(RECTANGULAR), acceleration)
 
@@ -86,7 +86,7 @@ def fixed_restitution(side: Side = POSITIVE) -> sp.Expr:
     """√r' = θ̇_2/θ̇_1 of the column with the fixed mass: angular momentum about the new corner."""
     balance = (I_o - m_c * R**2 + I_b) * (velocity_after - velocity_before)
     for (mass, after), (_, before) in zip(_masses(side), _masses(side.other), strict=True):
-        balance += mass * turning(side.upright(after), jump(side, before, after))
+        balance += mass * moment(side.upright(after), jump(side, before, after))
     return solved(balance.subs(RECTANGULAR), velocity_after) / velocity_before
 
 
@@ -141,28 +141,30 @@ def fixed_mass_rocks_as_one_column() -> bool:
     mass = m_c + _CAP
     beside = R * sp.sin(alpha)
     above = (m_c * R * sp.cos(alpha) + _CAP * (2 * R * sp.cos(alpha) + half_depth)) / mass
-    identities = [vanishes(fixed_tangent() - beside / above, NEGATIVE)]
+    identities = [is_identically_zero(fixed_tangent() - beside / above, NEGATIVE)]
     distance = beside**2 + above**2
     fourth_power = (mass * g / _inertia()) ** 2 * distance
-    identities.append(vanishes(fixed_fourth_power() - fourth_power, NEGATIVE))
+    identities.append(is_identically_zero(fixed_fourth_power() - fourth_power, NEGATIVE))
     for side in SIDES:
         cos, sin = sp.cos(side.rotation), side.sign * sp.sin(side.rotation)
         # R' sin(α' − |θ|) and R' cos(α' − |θ|)
         across, along = beside * cos - above * sin, above * cos + beside * sin
         eq3 = -mass / _inertia() * (g * side.sign * across + ground_acceleration * along)
-        identities.append(vanishes(fixed_motion(side) - eq3, side))
+        identities.append(is_identically_zero(fixed_motion(side) - eq3, side))
     return all(identities)
 
 
 def energies_give_the_same_motion_of_the_fixed_mass() -> bool:
     """Energies alone give the same equation of motion as the balances of column and cap."""
-    return all(vanishes(fixed_motion(side) - fixed_lagrange(side), side) for side in SIDES)
+    return all(
+        is_identically_zero(fixed_motion(side) - fixed_lagrange(side), side) for side in SIDES
+    )
 
 
 def impulses_give_the_restitution_of_the_fixed_mass() -> bool:
     """√r' = 1 − 2 M b²/I on both sides, with M = (1 + γ) m_c."""
     stated = 1 - 2 * (m_c + _CAP) * (R * sp.sin(alpha)) ** 2 / _inertia()
-    return all(vanishes(fixed_restitution(side) - stated, side) for side in SIDES)
+    return all(is_identically_zero(fixed_restitution(side) - stated, side) for side in SIDES)
 
 
 def fixed_mass_lowers_the_uplift_acceleration() -> bool:
@@ -178,7 +180,7 @@ def fixed_mass_lowers_the_uplift_acceleration() -> bool:
     falls = [sp.factor(sp.diff(plain, by)).is_negative for by in (gamma, half_depth)]
     ends = (stated.subs(gamma, 0), sp.limit(stated, gamma, sp.oo))
     reached = ends == (sp.tan(alpha), sp.tan(alpha) / 2)
-    return reached and all(falls) and vanishes(concentrated - stated, NEGATIVE)
+    return reached and all(falls) and is_identically_zero(concentrated - stated, NEGATIVE)
 
 
 def fixed_mass_tends_to_the_column() -> bool:
@@ -186,10 +188,10 @@ def fixed_mass_tends_to_the_column() -> bool:
     fixed, column, frame = (power.subs(gamma, 0) for power in _fourth_powers())
     light = {gamma: 0} | CONCENTRATED
     return (
-        vanishes(fixed_tangent().subs(light) - sp.tan(alpha), NEGATIVE)
+        is_identically_zero(fixed_tangent().subs(light) - sp.tan(alpha), NEGATIVE)
         and sp.simplify(fixed - column) == sp.simplify(frame - column) == 0
-        and vanishes(fixed_restitution().subs(light) - column_restitution(), POSITIVE)
-        and vanishes(restitution().subs(gamma, 0) - column_restitution(), POSITIVE)
+        and is_identically_zero(fixed_restitution().subs(light) - column_restitution(), POSITIVE)
+        and is_identically_zero(restitution().subs(gamma, 0) - column_restitution(), POSITIVE)
     )
 
 

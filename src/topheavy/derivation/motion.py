@@ -134,7 +134,7 @@ def cap_motion(side: Side) -> CapMotion:
 # Balances -----------------------------------------------------------------------------------------
 
 
-def turning(arm: sp.Matrix, force: sp.Matrix) -> sp.Expr:
+def moment(arm: sp.Matrix, force: sp.Matrix) -> sp.Expr:
     """The clockwise moment of a force at the end of an arm."""
     return arm[1] * force[0] - arm[0] * force[1]
 
@@ -144,8 +144,8 @@ def column_moment(side: Side, on_cap: sp.Matrix) -> sp.Expr:
 
     By Steiner's theorem its inertia about the pivot is I_o. # Eqs. (1), (2), (10), (11), (20), (21)
     """
-    loads = I_o * acceleration + m_c * turning(centre(side), LOADS)
-    return loads + turning(cap_contact(side), on_cap)
+    loads = I_o * acceleration + m_c * moment(centre(side), LOADS)
+    return loads + moment(cap_contact(side), on_cap)
 
 
 def cap_force(side: Side) -> sp.ImmutableMatrix:
@@ -167,7 +167,7 @@ def motion_of_columns(side: Side) -> sp.Expr:
     The columns' moments about their pivots sum up to that of the force on the cap beam.
     """
     rest = column_moment(side, sp.zeros(2, 1))
-    return solved(N * rest + turning(cap_contact(side), cap_force(side)), acceleration)
+    return solved(N * rest + moment(cap_contact(side), cap_force(side)), acceleration)
 
 
 @cache
@@ -285,7 +285,7 @@ def restitution_of_columns(side: Side) -> sp.Expr:
     column, cap = (jump(side, point(side.other), point(side)) for point in (centre, cap_contact))
     arm, top = (side.upright(point(side)) for point in (centre, cap_contact))
     spin = (I_o - m_c * R**2) * (velocity_after - velocity_before)
-    balance = N * (m_c * turning(arm, column) + spin) + m_b * turning(top, cap)
+    balance = N * (m_c * moment(arm, column) + spin) + m_b * moment(top, cap)
     return solved(sp.expand_trig(balance), velocity_after) / velocity_before
 
 

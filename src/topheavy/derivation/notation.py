@@ -188,7 +188,7 @@ class CircleField:
         return (numerator / denominator).as_expr().subs(functions)
 
 
-def vanishes(expression: Any, side: Side) -> bool:
+def is_identically_zero(expression: Any, side: Side) -> bool:
     """Whether an expression is identically zero, decided exactly.
 
     α and the lean α − |θ| are regarded as independent angles.

@@ -8,7 +8,7 @@ from __future__ import annotations
 import sympy as sp
 
 from topheavy.derivation.fixed_mass import fixed_tangent
-from topheavy.derivation.motion import cap_contact, turning
+from topheavy.derivation.motion import cap_contact, moment
 from topheavy.derivation.notation import (
     SIDES,
     R,
@@ -18,9 +18,9 @@ from topheavy.derivation.notation import (
     gamma,
     h,
     half_depth,
+    is_identically_zero,
     m_b,
     m_c,
-    vanishes,
 )
 
 _FROM_ANGLE = {sp.tan(alpha): b / h, sp.sin(alpha): b / R, sp.cos(alpha): h / R}
@@ -40,7 +40,7 @@ def level_cap_has_no_balance_across() -> bool:
         arm = axis + sp.Matrix([0, half_depth]) - contact  # from the contact to the centre
         load = -m_b * g * sp.Matrix([-side.sign * sp.tan(alpha), 1])
         stated = m_b * g * (R * sp.sin(alpha) + half_depth * sp.tan(alpha))
-        identities.append(vanishes(turning(arm, load) - side.sign * stated, side))
+        identities.append(is_identically_zero(moment(arm, load) - side.sign * stated, side))
     return all(identities)
 
 

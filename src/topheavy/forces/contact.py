@@ -34,7 +34,7 @@ from topheavy.bodies.structures import (
     RockingFrame,
     checked_two_columns,
 )
-from topheavy.checks import short
+from topheavy.checks import short_repr
 from topheavy.ground.excitation import Excitation
 from topheavy.ground.records import Record
 from topheavy.outcomes.simulate import simulate
@@ -160,7 +160,7 @@ def forces_at(
     velocity: ArrayLike,
     ground_acceleration: ArrayLike,
 ) -> ContactForces:
-    """Return the forces on a frame in states of its motion, over its weight (2 m_c + m_b) g.
+    """Return the forces on a frame in states of its motion, normalised by (2 m_c + m_b) g.
 
     The motion is that of Eq. (23). The forces are not limited where a contact cannot provide them:
     a tension or a very large required friction shows that the assumed motion is impossible.
@@ -205,7 +205,7 @@ def forces_at(
 def column_forces(
     column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
 ) -> Reaction:
-    """Return the force of the ground on a solitary rocking column, over its weight m g.
+    """Return the force of the ground on a solitary rocking column, normalised by its weight m g.
 
     Parameters, and the side that it turns to from θ = 0, are as in `forces_at`. At rest the
     force is determinate: the ground's acceleration times the mass, and the weight.
@@ -229,7 +229,7 @@ def column_forces(
 
 
 def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> ContactForces:
-    """Return the impulses on a rocking frame at an impact, over its mass 2 m_c + m_b, in m/s.
+    """Return the impulses on a rocking frame at an impact, divided by its mass 2 m_c + m_b, in m/s.
 
     They act at the new pivots and the new column-top contacts, which leads to √r of Eq. (25). With
     another √r the old contacts would also act, and the impulses would not be determined.
@@ -272,13 +272,13 @@ BESIDE_IMPACT = 1e-8
 """Time before and after an impact at which the forces are computed, times 1/p̂."""
 
 SAME_MOTION = 1e-6
-"""Largest difference of θ, over α, between a response and its repetition."""
+"""Largest difference of θ, normalised by α, between a response and its repetition."""
 
 
 def contact_forces(
     structure: RockingFrame, cap: Cap, response: Response, motion: Excitation | None = None
 ) -> xarray.Dataset:
-    """Return the forces at the four contacts of a frame during a response, over its weight.
+    """Return the forces at the four contacts of a frame in a response, normalised by its weight.
 
     The response is followed again, at its own times, at the samples of a record, and just before
     and after each impact, where the forces jump. The impulses of the impacts themselves are those
@@ -319,7 +319,7 @@ def contact_forces(
     import xarray  # it imports pandas, a second that only tables need
 
     if not isinstance(structure, RockingFrame):
-        raise ValueError(f"structure is {short(structure)}; expected a RockingFrame")
+        raise ValueError(f"structure is {short_repr(structure)}; expected a RockingFrame")
     if response.time[0] != 0.0:
         raise ValueError(f"response begins at {response.time[0]:.6g} s; expected t = 0")
     time = _times_of_forces(structure, response, motion)
@@ -362,7 +362,7 @@ def _times_of_forces(
 ) -> Array:
     """Return the times of a response, of a record's samples, and beside the impacts, s."""
     beside = BESIDE_IMPACT / structure.frequency_parameter
-    times = [response.time, response.impacts - beside, response.impacts + beside]
+    times = [response.time, response.impact_times - beside, response.impact_times + beside]
     if isinstance(motion, Record):
         times.append(motion.time)
     together = np.unique(np.concatenate(times))

@@ -27,22 +27,22 @@ from topheavy.ground.excitation import Excitation, checked_excitation
 Array = NDArray[np.float64]
 
 SECTIONS = (0.0, 0.25, 0.5, 0.75, 1.0)
-"""Heights over 2h at which the bending moments are computed."""
+"""Heights, normalised by 2h, at which the bending moments are computed."""
 
 
 @dataclass(frozen=True, eq=False)
 class FrameForces:
-    """Forces of a rocking frame over its weight, each of the shape of the motion.
+    """Forces of a rocking frame normalised by its weight, each of the shape of the motion.
 
     Attributes
     ----------
     base_shear : ndarray
-        Horizontal force of the ground on both columns, over the weight.
+        Horizontal force of the ground on both columns, normalised by the weight.
     overturning_moment : ndarray
         Of the ground's reactions about the point of the ground midway between the resting columns,
-        over the weight, m.
+        normalised by the weight, m.
     bending_moment : ndarray, shape (..., 2, sections)
-        In the left and the right column at the heights SECTIONS, over the weight, m.
+        In the left and the right column at the heights SECTIONS, normalised by the weight, m.
 
     Examples
     --------
@@ -141,7 +141,7 @@ def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Excitation) -> NDA
     Returns
     -------
     ndarray, shape (3,)
-        Base shear, overturning moment and bending moment, over the weight as in `FrameForces`.
+        Base shear, overturning moment and bending moment, normalised as in `FrameForces`.
 
     Examples
     --------

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.checks import short
+from topheavy.checks import short_repr
 
 
 def constant_gravity(time: float) -> float:
@@ -22,7 +22,7 @@ def constant_gravity(time: float) -> float:
 def no_excitation(value: object) -> ValueError:
     """Return the ValueError for an argument that is no ground motion."""
     return ValueError(
-        f"excitation is {short(value)}; expected a Pulse or a Record, for example "
+        f"excitation is {short_repr(value)}; expected a Pulse or a Record, for example "
         'Pulse("one-sine", 0.3, 6.0) with 0.3 g and 6 rad/s'
     )
 

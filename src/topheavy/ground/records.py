@@ -92,7 +92,7 @@ class Record(Excitation):
             raise ValueError(f"{label}: unit is {unit!r}; expected one of {', '.join(UNITS)}")
         samples *= factor
         self._set(time_step, samples, name, checks.finite("start", start))
-        _ask_if_plausible(self, checks.MAX_USUAL_ACCELERATION if unit is None else MAX_RECORDED)
+        _warn_if_implausible(self, checks.MAX_USUAL_ACCELERATION if unit is None else MAX_RECORDED)
 
     def _set(self, step: float, samples: NDArray[np.float64], name: str, start: float) -> None:
         k = np.abs(samples).argmax()  # of the largest, or the first NaN
@@ -215,7 +215,7 @@ def _label(name: str) -> str:
     return f"record {name!r}" if name else "record"
 
 
-def _ask_if_plausible(record: Record, most: float) -> None:
+def _warn_if_implausible(record: Record, most: float) -> None:
     """Warn of a record that is probably no ground motion in g, with the number that shows it."""
     samples, velocities = record.acceleration, STANDARD_GRAVITY * record._velocities()
     largest, fastest, last = np.abs(samples).max(), np.abs(velocities).max(), velocities[-1]

@@ -21,13 +21,13 @@ from topheavy.ground.records import Record
 
 @dataclass(frozen=True, eq=False)
 class TwoComponents(Excitation):
-    """A horizontal and a vertical record that start together; see `refuse_fall`."""
+    """A horizontal and a vertical record that start together; see `check_no_free_fall`."""
 
     horizontal: Record
     vertical: Record
 
     def __post_init__(self) -> None:
-        refuse_fall(self.vertical)
+        check_no_free_fall(self.vertical)
 
     @property
     def duration(self) -> float:
@@ -70,11 +70,11 @@ class TwoComponents(Excitation):
 def with_vertical(excitation: Excitation | None, vertical: Record | None) -> Excitation | None:
     """Return the ground motion of both components, or the horizontal one if it is the only one."""
     if vertical is None:
-        return without_rest(excitation) if isinstance(excitation, Record) else excitation
-    return TwoComponents(*map(without_rest, both_records(excitation, vertical)))
+        return trim_zeros(excitation) if isinstance(excitation, Record) else excitation
+    return TwoComponents(*map(trim_zeros, both_records(excitation, vertical)))
 
 
-def without_rest(record: Record) -> Record:
+def trim_zeros(record: Record) -> Record:
     """Return a record without the zeros at its end."""
     (moving,) = np.nonzero(record.acceleration)
     size = max(2, int(moving[-1]) + 2) if moving.size else 2
@@ -98,7 +98,7 @@ def both_records(excitation: object, vertical: object) -> tuple[Record, Record]:
     return excitation, vertical
 
 
-def refuse_fall(vertical: Record, factors: ArrayLike = 1.0) -> None:
+def check_no_free_fall(vertical: Record, factors: ArrayLike = 1.0) -> None:
     """Raise ValueError if the ground falls at 1 g or more: the structure would lose contact."""
     samples, scales = vertical.acceleration, np.ravel(factors)
     for factor in (float(scales.max()), float(scales.min())):

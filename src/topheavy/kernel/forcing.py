@@ -49,7 +49,7 @@ MAX_PIECES = 10
 MAX_NEWTON_STEPS = 64
 #: No shape of unit amplitude exceeds this (the antisymmetric wavelet does exceed 1, by 1.4e-5).
 UNIT_BOUND = 1.0001
-#: Samples of two records that are as near, over the duration, are at the same time.
+#: Samples of two records that are as near, relative to the duration, are at the same time.
 SAME_TIME = 1e-9
 
 
@@ -86,7 +86,7 @@ class Forcing(NamedTuple):
         The τ at which the motion is over.
     step : float
         p Δt of a record.
-    vertical : float
+    vertical_factor : float
         The factor on the vertical record.
     record : ndarray
         See `Waveform`.
@@ -97,7 +97,7 @@ class Forcing(NamedTuple):
     frequency: float
     end: float
     step: float
-    vertical: float
+    vertical_factor: float
     record: Array
 
 
@@ -125,12 +125,12 @@ def record_waveform(samples: Array, vertical: Array | None = None, ratio: float 
 
 
 @compiled
-def forcing_of(waveform, scale, amplitude, vertical):
+def forcing_of(waveform, scale, amplitude, vertical_factor):
     """Return the `Forcing` of a pulse with ω/p = `scale`, or of a record with p Δt = `scale`."""
     wave, last_phase, record = waveform
     if wave == RECORD:
         end = record[TIME, record.shape[1] - 1] * scale
-        return Forcing(wave, amplitude, 1.0, end, scale, vertical, record)
+        return Forcing(wave, amplitude, 1.0, end, scale, vertical_factor, record)
     return Forcing(wave, amplitude, scale, last_phase / scale, 1.0, 0.0, record)
 
 
@@ -203,7 +203,7 @@ def piece_start(forcing, piece):
 @compiled(forceinline=True, no_cpython_wrapper=False)
 def ground_of_piece(forcing, piece):
     """Return a, a', G and G' where a piece of a record begins."""
-    record, amplitude, vertical = forcing.record, forcing.amplitude, forcing.vertical
+    record, amplitude, vertical = forcing.record, forcing.amplitude, forcing.vertical_factor
     length = (record[TIME, piece + 1] - record[TIME, piece]) * forcing.step
     rate = amplitude * (record[A_END, piece] - record[A_START, piece]) / length
     change = vertical * (record[V_END, piece] - record[V_START, piece]) / length
@@ -240,7 +240,7 @@ def bounds_after(forcing, time):
         return 0.0, 1.0
     if forcing.wave == RECORD:
         k = piece_of(forcing, time)
-        change = abs(forcing.vertical) * forcing.record[V_MAX, k]
+        change = abs(forcing.vertical_factor) * forcing.record[V_MAX, k]
         if change >= 1.0:
             return np.inf, 1.0 + change
         return abs(forcing.amplitude) * forcing.record[A_MAX, k] / (1.0 - change), 1.0 + change
@@ -315,7 +315,7 @@ def next_uplift(forcing, time, level):
 def _next_uplift_of_record(forcing, time, level):
     """Return the same for a record: on either side the push ±a − G level is a straight line."""
     record, last = forcing.record, forcing.record.shape[1] - 1
-    size, most = abs(forcing.amplitude), abs(forcing.vertical)
+    size, most = abs(forcing.amplitude), abs(forcing.vertical_factor)
     k = piece_of(forcing, time)
     while k < last:  # k grows each time
         if k % RUN_LENGTH == 0:
@@ -325,8 +325,8 @@ def _next_uplift_of_record(forcing, time, level):
             if size * record[A_MAX_OF_RUN, run] <= level * (1.0 - most * record[V_MAX_OF_RUN, run]):
                 k += RUN_LENGTH
                 continue
-        level_at_start = level * (1.0 + forcing.vertical * record[V_START, k])
-        level_at_end = level * (1.0 + forcing.vertical * record[V_END, k])
+        level_at_start = level * (1.0 + forcing.vertical_factor * record[V_START, k])
+        level_at_end = level * (1.0 + forcing.vertical_factor * record[V_END, k])
         is_low = size * abs(record[A_START, k]) <= level_at_start
         if is_low and size * abs(record[A_END, k]) <= level_at_end:
             k += 1

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy.bodies.free_rocking import Ending
+from topheavy.bodies.free_rocking import Outcome
 from topheavy.ground.shapes import WAVES
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import RECORD, Array, Forcing, Waveform, forcing_of
@@ -44,7 +44,7 @@ class Cells(NamedTuple):
     ----------
     block : array of int
         Its row of the array of blocks.
-    scale, amplitude, vertical : array
+    scale, amplitude, vertical_factor : array
         ω/p or p Δt, amplitude or factor, and the factor on the vertical record.
     order : array of int
         The order of its series.
@@ -53,7 +53,7 @@ class Cells(NamedTuple):
     block: NDArray[np.int64]
     scale: Array
     amplitude: Array
-    vertical: Array
+    vertical_factor: Array
     order: NDArray[np.int64]
 
 
@@ -76,11 +76,11 @@ def record_order(step: float, tolerance: float = TOLERANCE) -> int:
 def outcomes_of(
     blocks: Sequence[Oscillator],
     waveform: Waveform,
-    which: NDArray[np.int64],
+    block_index: NDArray[np.int64],
     scales: Array,
     amplitudes: Array,
     *,
-    verticals: Array | None = None,
+    vertical_factors: Array | None = None,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
 ) -> Results:
@@ -90,11 +90,11 @@ def outcomes_of(
     ----------
     waveform : Waveform
         That of all histories.
-    which : array of int, shape (n,)
+    block_index : array of int, shape (n,)
         The block of each history, by its place in `blocks`.
     scales, amplitudes : array, shape (n,)
         Of a pulse, ω/p and g; of a record, p Δt and the factor on it.
-    verticals : array, shape (n,), optional
+    vertical_factors : array, shape (n,), optional
         The factors on the vertical record; 0 unless given.
     threads : int, optional
         As `cores`, unless given.
@@ -104,16 +104,18 @@ def outcomes_of(
     ArithmeticError
         For a history that takes more than `step.MAX_STEPS` steps.
     """
-    size = which.size
+    size = block_index.size
     results = Results(np.empty(size), np.empty(size, bool), np.empty(size, np.int64))
     orders = np.full(size, PULSE_ORDER)
     is_record = waveform.wave == RECORD
     if is_record:
         steps, at = np.unique(scales, return_inverse=True)
         orders = np.array([record_order(step, tolerance) for step in steps.tolist()])[at]
-    verticals = np.zeros(size) if verticals is None else verticals
+    vertical_factors = np.zeros(size) if vertical_factors is None else vertical_factors
     # In C order, as numba would compile all anew for arrays that are not.
-    cells = Cells(*map(np.ascontiguousarray, (which, scales, amplitudes, verticals, orders)))
+    cells = Cells(
+        *map(np.ascontiguousarray, (block_index, scales, amplitudes, vertical_factors, orders))
+    )
     rows = np.array([tuple(map(float, block)) for block in blocks])
 
     def judge_batch(first: int, last: int, w: Array) -> int:
@@ -128,7 +130,7 @@ def outcomes_of(
         unresolved = in_threads(calls, min(threads or cores(), batches))
     for cell in unresolved:
         if cell >= 0:
-            block, scale, amplitude = blocks[which[cell]], scales[cell], amplitudes[cell]
+            block, scale, amplitude = blocks[block_index[cell]], scales[cell], amplitudes[cell]
             raise _unresolved(block, waveform, float(scale), float(amplitude))
     return results
 
@@ -145,8 +147,12 @@ def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results):
     for cell in range(first, last):
         row = blocks[cells.block[cell]]
         block = Oscillator(row[0], row[1], row[2], row[3], row[4], row[5], row[6] != 0.0)
-        scale, amplitude, vertical = cells.scale[cell], cells.amplitude[cell], cells.vertical[cell]
-        forcing = forcing_of(waveform, scale, amplitude, vertical)
+        scale, amplitude, vertical_factor = (
+            cells.scale[cell],
+            cells.amplitude[cell],
+            cells.vertical_factor[cell],
+        )
+        forcing = forcing_of(waveform, scale, amplitude, vertical_factor)
         method = Method(cells.order[cell], tolerance, is_straight(waveform.wave))
         history = judge(w, method, block, forcing)
         if history.result == UNRESOLVED:
@@ -172,17 +178,17 @@ def outcome_of(
     scale: float,
     amplitude: float,
     *,
-    vertical: float = 0.0,
+    vertical_factor: float = 0.0,
     tolerance: float = TOLERANCE,
-) -> Ending:
+) -> Outcome:
     """Return the outcome of one history; see `outcomes_of`."""
-    forcing = forcing_of(waveform, scale, amplitude, vertical)
+    forcing = forcing_of(waveform, scale, amplitude, vertical_factor)
     method = method_of(forcing, tolerance)
     history = _called(lambda w: judge(w, method, block, forcing), forcing)
     if history.result == UNRESOLVED:
         raise _unresolved(block, waveform, scale, amplitude)
     overturned = history.result == OVERTURNED
-    return Ending(overturned, math.nan if overturned else history.peak, history.impacts)
+    return Outcome(overturned, math.nan if overturned else history.peak, history.impacts)
 
 
 def sampled(

@@ -11,7 +11,7 @@ import math
 import sys
 from typing import NamedTuple
 
-from topheavy.bodies.free_rocking import ending
+from topheavy.bodies.free_rocking import outcome_of_energy
 from topheavy.ground.shapes import CONSTANT, RICKER_ANTISYMMETRIC, RICKER_SYMMETRIC
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
@@ -25,7 +25,7 @@ from topheavy.kernel.forcing import (
     piece_of,
     piece_start,
 )
-from topheavy.kernel.march import march
+from topheavy.kernel.quiet_pieces import skip_quiet_pieces
 from topheavy.kernel.rest import MIN_COUNTED_PEAK, comes_to_rest, next_tick
 from topheavy.kernel.step import (
     FLAT,
@@ -47,20 +47,20 @@ PIECE_END = FLAT + 1
 #: A history with samples that takes more steps than this (and ten a sample of the record) is given
 #: up as `UNRESOLVED`, under the forcing or in free rocking. A free flight takes fewer than ten, as
 #: the motion is a pendulum's, whose series converge over π/2 or more. There are at most twice
-#: `MAX_FREE_IMPACTS` flights or, in a history with an end of its own, as many as `Samples.impacts`
-#: has room for.
+#: `MAX_FREE_IMPACTS` flights or, in a history with an end of its own, as many as
+#: `Samples.impact_times` has room for.
 MAX_STEPS_WITH_SAMPLES = 5 * MAX_STEPS
 #: A free history without an end of its own ends after so many impacts.
 MAX_FREE_IMPACTS = 1000
 #: Without an end of its own, a flight longer than this (in τ) is that of a block poised at α.
 MAX_FREE_FLIGHT = 100.0
-#: Over α: a block this far from φ = α, and going on, has left.
+#: Normalised by α: a block this far from φ = α, and going on, has left.
 POISED_ROTATION = 1e-3
 
 #: The largest time that is not infinite.
 MAX_TIME = sys.float_info.max
 
-free_rocking = compiled(ending)
+free_rocking = compiled(outcome_of_energy)
 
 
 class Samples(NamedTuple):
@@ -73,13 +73,13 @@ class Samples(NamedTuple):
     motion : array, shape (2, times.size)
         Takes θ and dθ/dτ at the times, and is left as it was beyond the end of a block that does
         not rest.
-    impacts : array
+    impact_times : array
         Takes the times of impacts.
     """
 
     times: Array
     motion: Array
-    impacts: Array
+    impact_times: Array
 
 
 class History(NamedTuple):
@@ -91,14 +91,14 @@ class History(NamedTuple):
         The time at which it ended.
     result : int
         `NO_UPLIFT`, `RESTS`, `ROCKING` or `OVERTURNED`, as the whole motion ends; `UNRESOLVED` if
-        it takes too many steps, or more impacts than `Samples.impacts` has room for.
+        it takes too many steps, or more impacts than `Samples.impact_times` has room for.
     peak : float
         The largest |θ| of the whole motion.
     impacts : int
         The number of impacts until the forcing ended or the block was judged overturned.
     all_impacts : int
-        The number of all impacts: how many `Samples.impacts` holds. Neither counts those that end
-        a rotation below `rest.MIN_COUNTED_PEAK` α.
+        The number of all impacts: how many `Samples.impact_times` holds. Neither counts those that
+        end a rotation below `rest.MIN_COUNTED_PEAK` α.
     """
 
     end: float
@@ -108,13 +108,13 @@ class History(NamedTuple):
     all_impacts: int
 
 
-class Motion(NamedTuple):
+class RockingState(NamedTuple):
     """The motion of a block so far.
 
     Attributes
     ----------
     state : State
-    zeros : int
+    zero_order : int
         How many of φ, φ', φ'' are zero; see `step.advance`.
     piece : int
         The piece of the record.
@@ -130,7 +130,7 @@ class Motion(NamedTuple):
     """
 
     state: State
-    zeros: int
+    zero_order: int
     piece: int
     rocks: bool
     is_low: bool
@@ -143,7 +143,7 @@ class Motion(NamedTuple):
 def judge(w, method, block, forcing):
     """Follow a block from rest until its outcome is known and return its `History`."""
     state = State(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0)
-    motion = Motion(state, 0, 0, False, True, False, 0.0, 0)
+    motion = RockingState(state, 0, 0, False, True, False, 0.0, 0)
     for _ in range(MAX_STEPS + 10 * forcing.record.shape[1]):
         if w[HALT, 0] != 0.0:
             break
@@ -161,8 +161,8 @@ def judge(w, method, block, forcing):
         if motion.rocks and state.time >= forcing.end:
             tail = free_rocking(block, state.rotation, state.velocity)
             result = OVERTURNED if tail.overturned else ROCKING
-            peak = peak if tail.overturned else max(peak, tail.peak)
-            return History(state.time, result, peak, impacts + tail.impacts, impacts)
+            peak = peak if tail.overturned else max(peak, tail.peak_rotation)
+            return History(state.time, result, peak, impacts + tail.number_of_impacts, impacts)
     return History(motion.state.time, UNRESOLVED, motion.peak, motion.impacts, motion.impacts)
 
 
@@ -181,7 +181,7 @@ def sample(w, method, block, forcing, rotation, velocity, until, samples):
     """
     motion, filled = _first_motion(block, forcing, rotation, velocity), 0
     for _ in range(MAX_STEPS_WITH_SAMPLES + 10 * forcing.record.shape[1]):
-        if w[HALT, 0] != 0.0 or motion.impacts > samples.impacts.size:
+        if w[HALT, 0] != 0.0 or motion.impacts > samples.impact_times.size:
             break
         if motion.state.time >= forcing.end:
             return _sample_free(w, method.tolerance, block, forcing, motion, until, samples, filled)
@@ -213,13 +213,15 @@ def _sample_free(w, tolerance, block, forcing, motion, until, samples, filled):
         return History(begin, result, motion.peak, forced, forced)
     tail = free_rocking(block, state.rotation, state.velocity)
     result = OVERTURNED if tail.overturned else ROCKING
-    counted = forced + tail.impacts
+    counted = forced + tail.number_of_impacts
     state = with_ground(block, state, begin, ground(still, begin))
-    motion = Motion(state, motion.zeros, 0, True, motion.is_low, True, motion.peak, forced)
+    motion = RockingState(
+        state, motion.zero_order, 0, True, motion.is_low, True, motion.peak, forced
+    )
     for _ in range(MAX_STEPS_WITH_SAMPLES):
         before, time, landed = motion, motion.state.time, motion.impacts
-        peak = motion.peak if tail.overturned else max(motion.peak, tail.peak)
-        if w[HALT, 0] != 0.0 or landed > samples.impacts.size:
+        peak = motion.peak if tail.overturned else max(motion.peak, tail.peak_rotation)
+        if w[HALT, 0] != 0.0 or landed > samples.impact_times.size:
             break
         is_far = block.linearised and tail.overturned and motion.state.rotation >= math.pi / 2
         is_poised = time - flight_start >= MAX_FREE_FLIGHT
@@ -228,7 +230,9 @@ def _sample_free(w, tolerance, block, forcing, motion, until, samples, filled):
             return History(time, result, peak, counted, landed)
         stop = min(until, flight_start + MAX_FREE_FLIGHT) if until == math.inf else until
         motion, event = next_event(w, method, block, still, before, stop)
-        if _leaves_wrongly(block, motion.state, event, tail.overturned, tail.impacts - flights):
+        if _leaves_wrongly(
+            block, motion.state, event, tail.overturned, tail.number_of_impacts - flights
+        ):
             return History(time, result, peak, counted, landed)
         filled = _fill(w, method, block, before, motion, samples, filled)
         if event == FLAT:
@@ -236,7 +240,7 @@ def _sample_free(w, tolerance, block, forcing, motion, until, samples, filled):
         if event == LANDING:
             flights, flight_start = flights + 1, motion.state.time
             bounce = free_rocking(block, 0.0, motion.state.velocity)
-            if not tail.overturned and bounce.peak <= MIN_COUNTED_PEAK * block.slenderness:
+            if not tail.overturned and bounce.peak_rotation <= MIN_COUNTED_PEAK * block.slenderness:
                 _fill_rest(samples, filled, MAX_TIME)
                 return History(flight_start, RESTS, peak, counted, motion.impacts)
     return History(motion.state.time, UNRESOLVED, motion.peak, counted, motion.impacts)
@@ -248,7 +252,7 @@ def next_event(w, method, block, forcing, motion, until):
 
     Returns
     -------
-    motion : Motion
+    motion : RockingState
         At the end of the step, behind the impact if it ends with one.
     event : int
         `NOTHING`, `LANDING`, `FLAT` or, without any of these, `PIECE_END`.
@@ -259,7 +263,7 @@ def next_event(w, method, block, forcing, motion, until):
         stop = min(stop, piece_start(forcing, piece + 1))
     longest, flight_peak = stop - begin.time, 0.0 if is_low else peak
     step, event, flight_peak = advance(
-        w, method, block, forcing, begin, motion.zeros, longest, flight_peak
+        w, method, block, forcing, begin, motion.zero_order, longest, flight_peak
     )
     state = evaluate(w, method, block, begin, step)
     time = stop if step >= longest else state.time
@@ -270,10 +274,10 @@ def next_event(w, method, block, forcing, motion, until):
         state = at_time(state, time)
     peak = max(peak, flight_peak)
     is_low = is_low and flight_peak <= MIN_COUNTED_PEAK * block.slenderness
-    zeros, rocks = 0, True
+    zero_order, rocks = 0, True
     if event == LANDING or (event == NOTHING and state.rotation <= 0.0):
         impacts += 0 if is_low else 1
-        event, is_low, zeros, state = LANDING, True, 1, after_impact(block, state)
+        event, is_low, zero_order, state = LANDING, True, 1, after_impact(block, state)
         if time < forcing.end and comes_to_rest(block, forcing, state, peak):
             rocks, state = False, at_time(state, next_tick(time))
     if is_record and state.time >= stop:
@@ -281,20 +285,20 @@ def next_event(w, method, block, forcing, motion, until):
         if rocks and state.time < forcing.end:
             state = with_ground(block, state, state.time, ground_of_piece(forcing, piece))
             event = PIECE_END if event == NOTHING else event
-    return Motion(state, zeros, piece, rocks, is_low, True, peak, impacts), event
+    return RockingState(state, zero_order, piece, rocks, is_low, True, peak, impacts), event
 
 
 @compiled
 def lift_off(block, forcing, motion):
     """Return the motion at the next uplift of a block at rest; it rocks unless there is none."""
-    time, push, rate, side = next_uplift(forcing, motion.state.time, block.level)
+    time, push, rate, side = next_uplift(forcing, motion.state.time, block.uplift_level)
     if time >= forcing.end:
         return motion
     _, _, weight, change = ground(forcing, time)
     state = State(time, side, 0.0, 0.0, 0.0, 1.0, push, rate, weight, change)
     piece = piece_of(forcing, time) if forcing.wave == RECORD else 0
-    zeros = 2 if push > 0.0 else 3
-    return Motion(state, zeros, piece, True, True, True, motion.peak, motion.impacts)
+    zero_order = 2 if push > 0.0 else 3
+    return RockingState(state, zero_order, piece, True, True, True, motion.peak, motion.impacts)
 
 
 @compiled
@@ -304,21 +308,23 @@ def _first_motion(block, forcing, rotation, velocity):
     state = State(0.0, side, phi, side * velocity, sine, cosine, 0.0, 0.0, 1.0, 0.0)
     state = with_ground(block, state, 0.0, ground(forcing, 0.0))
     rocks = rotation != 0.0 or velocity**2 > 0.0  # a speed without an energy is rest
-    zeros = 1 if rotation == 0.0 else 0
-    return Motion(state, zeros, 0, rocks, rotation == 0.0, rocks, phi, 0)
+    zero_order = 1 if rotation == 0.0 else 0
+    return RockingState(state, zero_order, 0, rocks, rotation == 0.0, rocks, phi, 0)
 
 
 @compiled
 def _march(block, forcing, motion, tolerance):
-    """Return the motion after the pieces of a record that `march` passes over."""
-    piece, state, peak = march(block, forcing, motion.state, motion.piece, tolerance, motion.peak)
-    return Motion(state, 0, piece, True, False, True, peak, motion.impacts)
+    """Return the motion after the pieces of a record that `skip_quiet_pieces` passes over."""
+    piece, state, peak = skip_quiet_pieces(
+        block, forcing, motion.state, motion.piece, tolerance, motion.peak
+    )
+    return RockingState(state, 0, piece, True, False, True, peak, motion.impacts)
 
 
 @compiled
 def _fill(w, method, block, begin, motion, samples, filled):
     """Fill the samples of a step from its series in `w`; return how many are filled."""
-    start, time, (times, values, impacts) = begin.state, motion.state.time, samples
+    start, time, (times, values, impact_times) = begin.state, motion.state.time, samples
     for k in range(filled, times.size):
         is_end = times[k] == math.inf
         if times[k] > time and not is_end:
@@ -326,8 +332,8 @@ def _fill(w, method, block, begin, motion, samples, filled):
         state = evaluate(w, method, block, start, min(times[k], time) - start.time)
         values[0, k], values[1, k] = start.side * state.rotation, start.side * state.velocity
         filled += 0 if is_end else 1
-    if begin.impacts < motion.impacts <= impacts.size:
-        impacts[begin.impacts] = time
+    if begin.impacts < motion.impacts <= impact_times.size:
+        impact_times[begin.impacts] = time
     return filled
 
 

@@ -27,7 +27,7 @@ from topheavy.kernel.forcing import (
     piece_start,
 )
 
-#: A rotation below this, over α, is no rocking: the impact that ends it is not counted.
+#: A rotation below this, normalised by α, is no rocking: the impact that ends it is not counted.
 MIN_COUNTED_PEAK = 1e-6
 #: Pieces of a record over which the push is bounded piece by piece. A block with √r → 1 would rest
 #: after so many that each bounce took the time of the whole record.
@@ -52,7 +52,7 @@ def comes_to_rest(block, forcing, state, peak):
     Under gravity Γ, level − f₂ and level − f₁ are the least and the largest Γ level − f, and the
     φ̂/cos α of g is times the largest Γ.
     """
-    cosine, level, restitution = block.cosine, block.level, block.restitution
+    cosine, level, restitution = block.cosine, block.uplift_level, block.restitution
     time, velocity = state.time, state.velocity
     if velocity <= 0.0:
         return True
@@ -119,7 +119,7 @@ def _range_of_record(forcing, start, stop, side, level):
     beyond = first + MAX_SCANNED_PIECES
     if beyond <= last and piece_start(forcing, beyond) < stop:
         push = abs(forcing.amplitude) * record[A_MAX, first]
-        change = abs(forcing.vertical) * record[V_MAX, first]
+        change = abs(forcing.vertical_factor) * record[V_MAX, first]
         least, most = level * (1.0 - change) - push, level * (1.0 + change) + push
         return least, most, least, most, 1.0 + change
     near, max_near, far, max_far, heaviest = np.inf, -np.inf, np.inf, -np.inf, 0.0

@@ -16,7 +16,7 @@ from topheavy.kernel.taylor import ROTATION, State, expand, longest_step
 
 #: Terms of φ in a step of a pulse.
 PULSE_ORDER = 16
-#: Bound on the last two terms of φ' in a step, over α.
+#: Bound on the last two terms of φ' in a step, normalised by α.
 TOLERANCE = 3e-10
 #: A history with more steps than this (and ten a sample) is given up as not resolved.
 #:
@@ -62,12 +62,12 @@ def is_certain_to_overturn(block, forcing, state):
 
 
 @compiled(fastmath={"contract"})
-def advance(w, method, block, forcing, state, zeros, longest, peak):
+def advance(w, method, block, forcing, state, zero_order, longest, peak):
     """Find a step of at most `longest`.
 
     Parameters
     ----------
-    zeros : int
+    zero_order : int
         How many of φ, φ', φ'' are zero at the start: 1 after an impact, 2 after an uplift by a
         jump of the forcing, 3 after an uplift where |a| passes the level, 0 else.
     peak : float
@@ -91,8 +91,8 @@ def advance(w, method, block, forcing, state, zeros, longest, peak):
     for k in range(order + 1):
         w[POLYNOMIAL, k] = w[ROTATION, k] * power
         power *= step
-    if zeros >= 2:
-        final, rises = _plain_rise(w, order, zeros)
+    if zero_order >= 2:
+        final, rises = _plain_rise(w, order, zero_order)
         if rises and final <= block.flat:
             return step, NOTHING, max(peak, final)
     else:
@@ -107,21 +107,21 @@ def advance(w, method, block, forcing, state, zeros, longest, peak):
                 return step, NOTHING, highest
             landing = isolated_root(w, POLYNOMIAL, 0, order, 0.0, 1.0, 1.0)
             return step * landing, LANDING, highest
-    end, event, peak = proven(w, order, zeros, block.flat, peak)
+    end, event, peak = proven(w, order, zero_order, block.flat, peak)
     return step * end, event, peak
 
 
 @compiled
-def proven(w, order, zeros, flat, peak):
+def proven(w, order, zero_order, flat, peak):
     """Return where the step polynomial ends on [0, 1], its event, and the largest φ so far."""
     to_bernstein(w, POLYNOMIAL, order, HULL)
-    least, largest = w[HULL, zeros], 0.0
-    for k in range(zeros, order + 1):
+    least, largest = w[HULL, zero_order], 0.0
+    for k in range(zero_order, order + 1):
         least = min(least, w[HULL, k])
         largest = max(largest, w[HULL, k])
 
     end, event = 1.0, NOTHING
-    if least <= 0.0 and roots(w, POLYNOMIAL, zeros, order, HULL, STACK, ROOTS, 1) > 0:
+    if least <= 0.0 and roots(w, POLYNOMIAL, zero_order, order, HULL, STACK, ROOTS, 1) > 0:
         end, event = w[ROOTS, 0], LANDING
     if largest > flat:
         for k in range(order + 1):
@@ -130,7 +130,7 @@ def proven(w, order, zeros, flat, peak):
         if roots(w, SLOPE, 0, order, SLOPE_HULL, STACK, ROOTS, 1) > 0 and w[ROOTS, 0] < end:
             end, event = w[ROOTS, 0], FLAT
     if largest > peak:
-        peak = _largest_rotation(w, order, zeros, end, peak)
+        peak = _largest_rotation(w, order, zero_order, end, peak)
     return end, event, peak
 
 
@@ -161,29 +161,32 @@ def _plain_range(w, order):
 
 
 @compiled(fastmath={"contract"})
-def _plain_rise(w, order, zeros):
+def _plain_rise(w, order, zero_order):
     """Return the last value of the step polynomial after an uplift and whether it surely rises.
 
     As `_plain_range`, with the first four terms of the derivative over x to its zeros at 0.
     """
-    a, b = zeros * w[POLYNOMIAL, zeros], (zeros + 1) * w[POLYNOMIAL, zeros + 1]
-    c, d = (zeros + 2) * w[POLYNOMIAL, zeros + 2], (zeros + 3) * w[POLYNOMIAL, zeros + 3]
+    a, b = zero_order * w[POLYNOMIAL, zero_order], (zero_order + 1) * w[POLYNOMIAL, zero_order + 1]
+    c, d = (
+        (zero_order + 2) * w[POLYNOMIAL, zero_order + 2],
+        (zero_order + 3) * w[POLYNOMIAL, zero_order + 3],
+    )
     final, bend = 0.0, 0.0
-    for k in range(zeros, order + 1):
+    for k in range(zero_order, order + 1):
         final += w[POLYNOMIAL, k]
-    for k in range(zeros + 4, order + 1):
+    for k in range(zero_order + 4, order + 1):
         bend += k * abs(w[POLYNOMIAL, k])
     least = min(min(a, a + b / 3), min(a + (2 * b + c) / 3, a + b + c + d))
     return final, least > bend
 
 
 @compiled
-def _largest_rotation(w, order, zeros, end, peak):
+def _largest_rotation(w, order, zero_order, end, peak):
     """Return the larger of `peak` and the largest value of the step polynomial on [0, end]."""
     for k in range(order):
         w[SLOPE, k] = (k + 1) * w[POLYNOMIAL, k + 1]
         w[SLOPE_HULL, k] = w[HULL, k + 1] - w[HULL, k]
-    first = max(zeros - 1, 0)
+    first = max(zero_order - 1, 0)
     turns = roots(w, SLOPE, first, order - 1, SLOPE_HULL, STACK, ROOTS, order)
     peak = max(peak, _value(w, order, end))
     for k in range(turns):
@@ -204,8 +207,8 @@ def _value(w, order, x):
 def after_impact(block, state):
     """Return the state on the other side: φ' times √r, the push as that side feels it."""
     velocity = max(-state.velocity, 0.0) * block.restitution
-    push = -state.push - 2 * block.level * state.gravity
-    rate = -state.rate - 2 * block.level * state.gravity_rate
+    push = -state.push - 2 * block.uplift_level * state.gravity
+    rate = -state.rate - 2 * block.uplift_level * state.gravity_rate
     gravity, change = state.gravity, state.gravity_rate
     return State(state.time, -state.side, 0.0, velocity, 0.0, 1.0, push, rate, gravity, change)
 
@@ -215,5 +218,8 @@ def with_ground(block, state, time, ground_motion):
     """Return the state at `time`, its push and gravity from a, a', G and G'."""
     (value, rate, gravity, change), side = ground_motion, state.side
     rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
-    push, push_rate = -side * value - block.level * gravity, -side * rate - block.level * change
+    push, push_rate = (
+        -side * value - block.uplift_level * gravity,
+        -side * rate - block.uplift_level * change,
+    )
     return State(time, side, rotation, velocity, sine, cosine, push, push_rate, gravity, change)

@@ -36,13 +36,13 @@ INVERSE = 1.0 / np.maximum(np.arange(MAX_ORDER + 2), 1.0)
 class Oscillator(NamedTuple):
     """A rocking block without p, which only scales the time.
 
-    `level` is tan α, linearised α; linearised, `cosine` and `sine` are 1 and 0 (as of α → 0), and
-    the block has no end at φ = π/2 (`flat` is infinite).
+    `uplift_level` is tan α, linearised α; linearised, `cosine` and `sine` are 1 and 0 (the limit
+    α → 0), and the block has no end at φ = π/2 (`flat` is infinite).
     """
 
     slenderness: float
     restitution: float
-    level: float
+    uplift_level: float
     cosine: float
     sine: float
     flat: float
@@ -82,7 +82,7 @@ class Method(NamedTuple):
     order : int
         The order of the series of φ.
     tolerance : float
-        Bound on the last two terms of φ' in a step, over α (over φ where that is larger).
+        Bound on the last two terms of φ' in a step, normalised by α (by φ where that is larger).
     is_straight : bool
         Whether a and G are straight lines over a step: a record's piece, a constant, no motion.
     """
@@ -106,7 +106,10 @@ def expand(w, method, block, state, ground_equation):
     (order, _, is_straight), (c, d0, d1) = method, ground_equation
     w[ROTATION, 0], w[VELOCITY, 0] = state.rotation, state.velocity
     w[SINE, 0], w[COSINE, 0] = state.sine, state.cosine
-    w[PUSH, 0], w[PUSH, 1] = state.push + block.level, state.rate  # −s a solves the equation of a
+    w[PUSH, 0], w[PUSH, 1] = (
+        state.push + block.uplift_level,
+        state.rate,
+    )  # −s a solves the equation of a
     last_push = 1 if is_straight else order - 1
     for n in range(last_push - 1):
         curvature = (c + d1 * n) * w[PUSH, n] + d0 * (n + 1) * w[PUSH, n + 1]

@@ -31,7 +31,7 @@ class Capacity:
     overturned : ndarray of bool, shape (n,)
         The outcome under each factor.
     window : float
-        Width of the window, over its first factor.
+        Width of the window, relative to its first factor.
     share : float
         Of the factors in the window that have to overturn.
     unit_acceleration : float
@@ -52,7 +52,7 @@ class Capacity:
     unit_acceleration: float = math.nan
 
     def __post_init__(self) -> None:
-        factors = checks.axis("factors", self.factors, zero_allowed=False)
+        factors = checks.axis_values("factors", self.factors, zero_allowed=False)
         overturned = np.asarray(self.overturned, dtype=bool)
         if factors.size < 2 or (np.diff(factors) <= 0.0).any():
             raise ValueError("factors do not increase; expected two or more increasing factors")
@@ -127,7 +127,7 @@ def capacity(
     factors : array_like, shape (n,)
         Positive and increasing, with many steps in the narrowest window, 2.5 % of the factor.
     window : float
-        Width of the window, over its first factor.
+        Width of the window, relative to its first factor.
     share : float
         Of the factors in the window that have to overturn.
 
@@ -138,7 +138,7 @@ def capacity(
     >>> round(capacity.factor, 2), [round(factor, 2) for factor in capacity.range]
     (2.94, [2.94, 3.9])
     """
-    scales = checks.axis("factors", factors, zero_allowed=False)
+    scales = checks.axis_values("factors", factors, zero_allowed=False)
     overturned = overturned_by(
         structure, record, scales, vertical=vertical, scale_vertical=scale_vertical
     )

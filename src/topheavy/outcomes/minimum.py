@@ -14,11 +14,11 @@ from topheavy.bodies.structures import Structure, as_block
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.outcomes.search import (
+    cases_of,
     checked_range,
     intervals_of_many,
     intervals_on,
-    outcomes_by,
-    subjects_of,
+    outcomes_of_factors,
 )
 
 if TYPE_CHECKING:
@@ -28,10 +28,10 @@ FACTORS_PER_CALL = 512
 """Factors of a grid in one call of the kernel, from the lowest up."""
 
 RESOLUTION = 0.02
-"""Over the uplift acceleration: a spectrum misses no wider interval of amplitudes that overturn."""
+"""Normalised by the uplift acceleration: a spectrum misses no wider interval that overturns."""
 
 FINER = (1.3, 0.001)
-"""Both over the uplift acceleration: below the first, no interval wider than the second."""
+"""Both normalised by uplift acceleration: below the first, no interval wider than the second."""
 
 
 @dataclass(frozen=True)
@@ -137,9 +137,11 @@ def lowest_overturning(
             "motion, give excitation.scaled(-1)"
         )
     parts = (last - first) / checks.positive("floor", floor)
-    checks.cells(f"floor is {floor:.6g} of {first:g} to {last:g}", math.ceil(min(parts, 1e18)))
+    checks.number_of_cells(
+        f"floor is {floor:.6g} of {first:g} to {last:g}", math.ceil(min(parts, 1e18))
+    )
     parts = 2 ** max(0, math.ceil(math.log2(parts)))
-    subjects = subjects_of([structure], excitation, scale_range, vertical, scale_vertical)
+    cases = cases_of([structure], excitation, scale_range, vertical, scale_vertical)
 
     def factors(begin: int, end: int) -> NDArray[np.float64]:
         step = (last - first) / parts
@@ -148,7 +150,7 @@ def lowest_overturning(
     overturned: list[bool] = []
     for begin in range(0, parts + 1, FACTORS_PER_CALL):
         grid = factors(begin, begin + FACTORS_PER_CALL)
-        overturned += outcomes_by(subjects, np.zeros(grid.size, np.int64), grid)[1].tolist()
+        overturned += outcomes_of_factors(cases, np.zeros(grid.size, np.int64), grid)[1].tolist()
         start = overturned.index(True) if True in overturned else len(overturned)
         if False in overturned[start:]:
             break
@@ -156,7 +158,7 @@ def lowest_overturning(
     if start < len(overturned):
         end = start + (overturned[start:] + [False]).index(False)
         grid = factors(max(start - 1, 0), end + 1)
-        interval = intervals_on(subjects, [grid], floor, 0)[0][0]
+        interval = intervals_on(cases, [grid], floor, 0)[0][0]
     return LowestOverturning(
         scale_range=(first, last),
         floor=floor,
@@ -183,7 +185,7 @@ def overturning_spectrum(
     periods : array_like, shape (n,)
         2π/ω, s; positive.
     highest : float
-        The largest amplitude, over the uplift acceleration.
+        The largest amplitude, normalised by the uplift acceleration.
 
     Returns
     -------
@@ -201,7 +203,7 @@ def overturning_spectrum(
     import xarray  # here: with pandas it takes a second that only tables need
 
     block = as_block(structure)
-    axis = checks.axis("periods", periods, zero_allowed=False)
+    axis = checks.axis_values("periods", periods, zero_allowed=False)
     uplift = block.uplift_acceleration
     minima = [
         intervals[0] if intervals else None
@@ -219,7 +221,7 @@ def overturning_spectrum(
     return xarray.Dataset(
         {
             "acceleration": ("period", accelerations, {"units": "g", "long_name": name}),
-            "after_impact": ("period", [bool(one and one.impacts) for one in minima]),
+            "after_impact": ("period", [bool(one and one.number_of_impacts) for one in minima]),
         },
         coords={"period": ("period", axis, {"units": "s"})},
         attrs={"shape": shape, "slenderness": block.slenderness, "restitution": block.restitution},

@@ -43,9 +43,9 @@ def overturning_map(
     Returns
     -------
     xarray.Dataset
-        peak_rotation (rad, NaN where overturned), overturned and impacts, over (angular_frequency,
-        amplitude) or (size, peak_acceleration). The peaks equal those of `judge` to about
-        1e-10 α.
+        peak_rotation (rad, NaN where overturned), overturned and number_of_impacts, over
+        (angular_frequency, amplitude) or (size, peak_acceleration). The peaks equal those of
+        `judge` to about 1e-10 α.
 
     Examples
     --------
@@ -63,10 +63,10 @@ def overturning_map(
 
     block = as_block(structure)
     p = block.frequency_parameter
-    axis = checks.axis("scales", scales, zero_allowed=False)
-    accelerations = checks.axis("amplitudes", amplitudes, zero_allowed=True)
+    axis = checks.axis_values("scales", scales, zero_allowed=False)
+    accelerations = checks.axis_values("amplitudes", amplitudes, zero_allowed=True)
     checks.acceleration("the largest of amplitudes", accelerations.max())
-    checks.cells("scales by amplitudes", axis.size, accelerations.size)
+    checks.number_of_cells("scales by amplitudes", axis.size, accelerations.size)
     if isinstance(motion, Record):
         if (peak := motion.peak_acceleration) == 0.0:
             raise ValueError(
@@ -102,16 +102,16 @@ def overturning_map(
         }
         attributes = {"shape": motion, "frequency_parameter": p}
     cells = np.repeat(rows, factors.size), np.tile(factors, rows.size)
-    which = np.zeros(cells[0].size, np.int64)
-    peak_rotation, overturned, impacts = (
+    block_index = np.zeros(cells[0].size, np.int64)
+    peak_rotation, overturned, number_of_impacts = (
         values.reshape(rows.size, factors.size)
-        for values in outcomes_of([oscillator(block)], waveform, which, *cells)
+        for values in outcomes_of([oscillator(block)], waveform, block_index, *cells)
     )
     return xarray.Dataset(
         {
             "peak_rotation": (dims, peak_rotation, {"units": "rad", "long_name": "largest |θ|"}),
             "overturned": (dims, overturned, {"units": "1"}),
-            "impacts": (dims, impacts, {"units": "1", "long_name": "number of impacts"}),
+            "number_of_impacts": (dims, number_of_impacts, {"units": "1"}),
         },
         coords=axes,
         attrs=attributes

@@ -15,7 +15,7 @@ from topheavy.bodies.structures import Structure, as_block
 from topheavy.ground.excitation import Excitation, no_excitation
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
-from topheavy.ground.vertical import both_records, refuse_fall
+from topheavy.ground.vertical import both_records, check_no_free_fall
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.step import TOLERANCE
 from topheavy.kernel.taylor import Oscillator, oscillator
@@ -25,17 +25,17 @@ SURVIVES = -1
 """Label of a factor that the structure survives; the label of another is its number of impacts."""
 
 MIN_INTERVAL = 1.0 / 1024.0
-"""Over the resolution: narrower intervals remain inside a bracket."""
+"""Normalised by the resolution: narrower intervals remain inside a bracket."""
 
 BRACKET = 1e-10
-"""Width of the brackets, over the larger end of the range."""
+"""Width of the brackets, normalised by the larger end of the range."""
 
 Factors = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Outcomes = tuple[Factors, NDArray[np.bool_], Indices]
 
 
-class Subject(NamedTuple):
+class Case(NamedTuple):
     """A block under a motion, as arguments of the kernel."""
 
     block: Oscillator
@@ -120,24 +120,24 @@ def _under_factors(
     scale_vertical: bool,
 ) -> tuple[Factors, NDArray[np.bool_]]:
     """Return peak rotation and overturning under each factor."""
-    scales = checks.axis("factors", factors, zero_allowed=True)
+    scales = checks.axis_values("factors", factors, zero_allowed=True)
     structures = list(structure) if isinstance(structure, Sequence) else [structure]
     if not structures:
         raise ValueError("structure is an empty list; expected one or more structures")
     ends = (float(scales.min()), float(scales.max()))
-    subjects = subjects_of(structures, excitation, ends, vertical, scale_vertical)
-    peak, overturned, _ = outcomes_by(
-        subjects,
-        np.repeat(np.arange(len(subjects)), scales.size),
-        np.tile(scales, len(subjects)),
+    cases = cases_of(structures, excitation, ends, vertical, scale_vertical)
+    peak, overturned, _ = outcomes_of_factors(
+        cases,
+        np.repeat(np.arange(len(cases)), scales.size),
+        np.tile(scales, len(cases)),
         tolerance=checked_tolerance(tolerance),
     )
-    shape = (len(subjects), scales.size) if isinstance(structure, Sequence) else (scales.size,)
+    shape = (len(cases), scales.size) if isinstance(structure, Sequence) else (scales.size,)
     return peak.reshape(shape), overturned.reshape(shape)
 
 
 @dataclass(frozen=True)
-class Interval:
+class FactorInterval:
     """An interval of factors that overturn, all after the same number of impacts.
 
     Attributes
@@ -145,7 +145,7 @@ class Interval:
     lower, upper : (float, float)
         Its ends, each as a pair of factors with the boundary between them. If the range begins in
         the interval, `lower` is the first factor twice; if it ends in it, `upper` is None.
-    impacts : int
+    number_of_impacts : int
         Before overturning. 0 is mode 2 of Zhang & Makris (2001), 1 is their mode 1.
 
     Examples
@@ -158,7 +158,7 @@ class Interval:
 
     lower: tuple[float, float]
     upper: tuple[float, float] | None
-    impacts: int
+    number_of_impacts: int
 
 
 def overturning_intervals(
@@ -170,7 +170,7 @@ def overturning_intervals(
     most_impacts: int | None = None,
     vertical: Record | None = None,
     scale_vertical: bool = True,
-) -> list[Interval]:
+) -> list[FactorInterval]:
     """Return the intervals of the factor on a ground motion that overturn a structure.
 
     The search begins with a uniform grid. Each change of the outcome between neighbours is then
@@ -191,7 +191,7 @@ def overturning_intervals(
 
     Returns
     -------
-    list of Interval
+    list of FactorInterval
         In ascending order. Neighbours with different numbers of impacts are separate; two with
         the same number that are less than the resolution apart may be returned as one.
 
@@ -199,12 +199,12 @@ def overturning_intervals(
     --------
     >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
     >>> intervals = th.overturning_intervals(column, pulse, (0.1, 1.0), resolution=0.01)
-    >>> [interval.impacts for interval in intervals]
+    >>> [interval.number_of_impacts for interval in intervals]
     [1, 0]
     """
     grid = _grid(excitation, scale_range, resolution)
-    subjects = subjects_of([structure], excitation, scale_range, vertical, scale_vertical)
-    return intervals_on(subjects, [grid], resolution, most_impacts)[0]
+    cases = cases_of([structure], excitation, scale_range, vertical, scale_vertical)
+    return intervals_on(cases, [grid], resolution, most_impacts)[0]
 
 
 def intervals_of_many(
@@ -215,7 +215,7 @@ def intervals_of_many(
     resolution: float,
     most_impacts: int | None = None,
     finer: tuple[float, float] | None = None,
-) -> list[list[Interval]]:
+) -> list[list[FactorInterval]]:
     """Return the `overturning_intervals` of several structures, each with its motion.
 
     `finer` is a factor and a resolution. Where the first interval begins below the factor, the
@@ -223,16 +223,16 @@ def intervals_of_many(
     pulses, the lowest intervals are narrow.
     """
     pairs = list(zip(structures, excitations, strict=True))
-    subjects = [subjects_of([structure], motion, scale_range)[0] for structure, motion in pairs]
+    cases = [cases_of([structure], motion, scale_range)[0] for structure, motion in pairs]
     grids = [_grid(motion, scale_range, resolution) for motion in excitations]
-    intervals = intervals_on(subjects, grids, resolution, most_impacts)
+    intervals = intervals_on(cases, grids, resolution, most_impacts)
     if finer:
         (below, resolution), first = finer, scale_range[0]
         ends = [some[0].lower[0] if some else math.inf for some in intervals]
         places = [place for place, end in enumerate(ends) if first < end < below]
-        subjects = [subjects[place] for place in places]
+        cases = [cases[place] for place in places]
         grids = [_grid(excitations[place], (first, ends[place]), resolution) for place in places]
-        lower = intervals_on(subjects, grids, resolution, most_impacts)
+        lower = intervals_on(cases, grids, resolution, most_impacts)
         for place, some in zip(places, lower, strict=True):
             intervals[place] = some + intervals[place]
     return intervals
@@ -258,19 +258,19 @@ def _grid(excitation: Excitation, scale_range: tuple[float, float], resolution: 
     """Return the first factors of a search, in equal steps not wider than the resolution."""
     first, last = checked_range(excitation, scale_range)
     steps = (last - first) / checks.positive("resolution", resolution)
-    checks.cells(
+    checks.number_of_cells(
         f"resolution is {resolution:g} of {first:g} to {last:g}", math.ceil(min(steps, 1e18))
     )
     return np.linspace(first, last, max(2, math.ceil(steps) + 1))
 
 
 def intervals_on(
-    subjects: Sequence[Subject],
+    cases: Sequence[Case],
     grids: Sequence[Factors],
     resolution: float,
     most_impacts: int | None,
-) -> list[list[Interval]]:
-    """Return the intervals of each subject from its grid. All brackets are halved together."""
+) -> list[list[FactorInterval]]:
+    """Return the intervals of each case from its grid. All brackets are halved together."""
     if not grids:
         return []
     most = np.iinfo(np.int64).max
@@ -279,61 +279,61 @@ def intervals_on(
             raise ValueError(f"most_impacts is {most_impacts}; expected a whole number from 0 on")
         most = int(most_impacts)
 
-    def label(which: Indices, factors: Factors) -> Indices:
-        _, overturned, impacts = outcomes_by(subjects, which, factors)
+    def label(case_index: Indices, factors: Factors) -> Indices:
+        _, overturned, impacts = outcomes_of_factors(cases, case_index, factors)
         return np.where(overturned, np.minimum(impacts, most), SURVIVES)
 
-    which = np.repeat(np.arange(len(grids)), [grid.size for grid in grids])
+    case_index = np.repeat(np.arange(len(grids)), [grid.size for grid in grids])
     factors = np.concatenate(grids)
-    labels = label(which, factors)
-    (at,) = np.nonzero((which[1:] == which[:-1]) & (labels[1:] != labels[:-1]))
-    subject, low, high = which[at], factors[at], factors[at + 1]
+    labels = label(case_index, factors)
+    (at,) = np.nonzero((case_index[1:] == case_index[:-1]) & (labels[1:] != labels[:-1]))
+    case, low, high = case_index[at], factors[at], factors[at + 1]
     below, above = labels[at], labels[at + 1]
     width = BRACKET * np.array([np.abs(grid[[0, -1]]).max() for grid in grids])
     brackets: list[tuple[Any, ...]] = []
     while True:
         middle = 0.5 * (low + high)
-        is_open = (high - low > width[subject]) & (low < middle) & (middle < high)
-        inside = np.full(subject.size, SURVIVES)
+        is_open = (high - low > width[case]) & (low < middle) & (middle < high)
+        inside = np.full(case.size, SURVIVES)
         if is_open.any():
-            inside[is_open] = label(subject[is_open], middle[is_open])
+            inside[is_open] = label(case[is_open], middle[is_open])
         is_third = (inside != below) & (inside != above)
         is_open &= ~is_third | (high - low > MIN_INTERVAL * resolution)
-        closed = (a[~is_open].tolist() for a in (subject, low, high, below, above))
+        closed = (a[~is_open].tolist() for a in (case, low, high, below, above))
         brackets += zip(*closed, strict=True)
         if not is_open.any():
             break
         left, right = is_open & (inside != below), is_open & (inside != above)
-        subject, low, high, below, above = (
+        case, low, high, below, above = (
             np.concatenate([a[left], b[right]])
             for a, b in (
-                (subject, subject),
+                (case, case),
                 (low, middle),
                 (middle, high),
                 (below, inside),
                 (inside, above),
             )
         )
-    intervals: list[list[Interval]] = [[] for _ in grids]
+    intervals: list[list[FactorInterval]] = [[] for _ in grids]
     begins = [(float(grid[0]), float(grid[0])) for grid in grids]
-    last = labels[np.searchsorted(which, np.arange(len(grids)))].tolist()
+    last = labels[np.searchsorted(case_index, np.arange(len(grids)))].tolist()
     for number, *boundary, before, after in sorted(brackets):
         if before != SURVIVES:
-            intervals[number].append(Interval(begins[number], tuple(boundary), before))
+            intervals[number].append(FactorInterval(begins[number], tuple(boundary), before))
         begins[number], last[number] = tuple(boundary), after
     for number, label_at_end in enumerate(last):
         if label_at_end != SURVIVES:
-            intervals[number].append(Interval(begins[number], None, label_at_end))
+            intervals[number].append(FactorInterval(begins[number], None, label_at_end))
     return intervals
 
 
-def subjects_of(
+def cases_of(
     structures: Sequence[Structure],
     excitation: Excitation,
     scale_range: tuple[float, float],
     vertical: Record | None = None,
     scale_vertical: bool = True,
-) -> list[Subject]:
+) -> list[Case]:
     """Return structures under a motion as arguments of the kernel, or raise ValueError."""
     blocks = [as_block(structure) for structure in structures]
     if excitation is None:
@@ -342,42 +342,42 @@ def subjects_of(
         raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
     if vertical is not None:
         _, up = both_records(excitation, vertical)
-        refuse_fall(up, scale_range if scale_vertical else 1.0)
+        check_no_free_fall(up, scale_range if scale_vertical else 1.0)
     motion = as_shaking(excitation, vertical)
-    return [Subject(oscillator(b), motion, motion.scale(b), scale_vertical) for b in blocks]
+    return [Case(oscillator(b), motion, motion.scale(b), scale_vertical) for b in blocks]
 
 
-def outcomes_by(
-    subjects: Sequence[Subject],
-    which: Indices,
+def outcomes_of_factors(
+    cases: Sequence[Case],
+    case_index: Indices,
     factors: Factors,
     *,
     tolerance: float = TOLERANCE,
 ) -> Outcomes:
-    """Return peak rotation, overturning and impacts of each factor on its subject.
+    """Return peak rotation, overturning and impacts of each factor on its case.
 
-    `which` has the place of each factor's subject in `subjects`.
+    `case_index` has the place of each factor's case in `cases`.
     """
-    peak = np.empty(which.size)
-    overturned, impacts = np.empty(which.size, bool), np.empty(which.size, np.int64)
-    waveforms = [subject.motion.waveform for subject in subjects]
+    peak = np.empty(case_index.size)
+    overturned, impacts = np.empty(case_index.size, bool), np.empty(case_index.size, np.int64)
+    waveforms = [case.motion.waveform for case in cases]
     motions = [(each.wave, each.last_phase, id(each.record)) for each in waveforms]
-    # The first subject under the same record, or under pulses of the same shape and cycles.
+    # The first case under the same record, or under pulses of the same shape and cycles.
     group = np.array([motions.index(motion) for motion in motions])
-    scale = np.array([subject.scale for subject in subjects])
-    amplitude = np.array([subject.motion.amplitude for subject in subjects])
-    scales_vertical = np.array([subject.scale_vertical for subject in subjects])
-    blocks = [subject.block for subject in subjects]
+    scale = np.array([case.scale for case in cases])
+    amplitude = np.array([case.motion.amplitude for case in cases])
+    scales_vertical = np.array([case.scale_vertical for case in cases])
+    blocks = [case.block for case in cases]
     for member in np.unique(group):
-        (at,) = np.nonzero(group[which] == member)
-        subject = which[at]
+        (at,) = np.nonzero(group[case_index] == member)
+        case = case_index[at]
         peak[at], overturned[at], impacts[at] = outcomes_of(
             blocks,
             waveforms[member],
-            subject,
-            scale[subject],
-            amplitude[subject] * factors[at],
-            verticals=np.where(scales_vertical[subject], factors[at], 1.0),
+            case,
+            scale[case],
+            amplitude[case] * factors[at],
+            vertical_factors=np.where(scales_vertical[case], factors[at], 1.0),
             tolerance=tolerance,
         )
     return peak, overturned, impacts

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.bodies.free_rocking import Ending
-from topheavy.bodies.response import Outcome, Response, initial_motion, sample_times
+from topheavy.bodies.free_rocking import Outcome
+from topheavy.bodies.response import EndState, Response, initial_motion, sample_times
 from topheavy.bodies.structures import RockingBlock, Structure, as_block
 from topheavy.ground.excitation import Excitation, checked_excitation, no_excitation
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
-from topheavy.ground.vertical import both_records, refuse_fall, without_rest
+from topheavy.ground.vertical import both_records, check_no_free_fall, trim_zeros
 from topheavy.kernel.forcing import (
     NO_MOTION,
     RECORD,
@@ -47,7 +47,7 @@ MAX_IMPACTS = 100_000
 MIN_TOLERANCE, MAX_TOLERANCE = 1e-16, 1e-2
 """Below the first, rounding dominates the error of a step; above the second, outcomes change."""
 
-_OUTCOMES: dict[int, Outcome] = {
+_END_STATES: dict[int, EndState] = {
     NO_UPLIFT: "no uplift",
     RESTS: "rests",
     ROCKING: "rocking",
@@ -116,7 +116,7 @@ def simulate(
     tolerance = checked_tolerance(tolerance)
     theta, theta_rate = initial_motion(block, rotation, velocity)
     if vertical is not None:
-        refuse_fall(both_records(excitation, vertical)[1])
+        check_no_free_fall(both_records(excitation, vertical)[1])
     shaking = as_shaking(excitation, vertical)
     p, scale = block.frequency_parameter, shaking.scale(block)
     until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
@@ -149,15 +149,15 @@ def simulate(
     if result is None or times.size > 2:
         # The last of uniform times is the end, and no rounding of p (end/p) above it.
         result = followed_until(until, np.minimum(p * times, last))
-    (_, motion, impacts), history = result
-    outcome = _OUTCOMES[history.result]
+    (_, motion, impact_times), history = result
+    outcome = _END_STATES[history.result]
     if outcome == "rests" and block.restitution == 1.0:
         outcome = "rocking"  # the kernel does not follow bounces that are too low to count
     return Response(
         time=times,
         rotation=motion[0],
         velocity=p * motion[1],
-        impacts=impacts[: history.all_impacts] / p,
+        impact_times=impact_times[: history.all_impacts] / p,
         outcome=outcome,
         number_of_impacts=history.impacts,
         peak_rotation=math.nan if outcome == "overturned" else history.peak,
@@ -170,7 +170,7 @@ def judge(
     *,
     tolerance: float = TOLERANCE,
     vertical: Record | None = None,
-) -> Ending:
+) -> Outcome:
     """Return whether a structure overturns, its peak rotation, and the number of impacts.
 
     The outcome is that of `simulate`, in microseconds: the free rocking is not integrated. The
@@ -198,14 +198,14 @@ def judge(
     """
     checked_excitation(excitation, ends=True)
     if vertical is not None:
-        refuse_fall(both_records(excitation, vertical)[1])
+        check_no_free_fall(both_records(excitation, vertical)[1])
     block, shaking = as_block(structure), as_shaking(excitation, vertical)
     return outcome_of(
         oscillator(block),
         shaking.waveform,
         shaking.scale(block),
         shaking.amplitude,
-        vertical=1.0,
+        vertical_factor=1.0,
         tolerance=checked_tolerance(tolerance),
     )
 
@@ -226,7 +226,7 @@ class Shaking(NamedTuple):
 def as_shaking(excitation: Excitation | None, vertical: Record | None = None) -> Shaking:
     """Return a ground motion as the kernel reads it, or raise ValueError for anything else."""
     if vertical is not None:
-        across, up = map(without_rest, both_records(excitation, vertical))
+        across, up = map(trim_zeros, both_records(excitation, vertical))
         ratio = up.time_step / across.time_step
         waveform = record_waveform(across.acceleration, up.acceleration, ratio)
         return Shaking(waveform, across.time_step, 1.0)
@@ -244,7 +244,7 @@ def as_shaking(excitation: Excitation | None, vertical: Record | None = None) ->
 @lru_cache(maxsize=2)
 def _waveform(record: Record) -> Waveform:
     """Return a record as the kernel reads it, prepared once for several calls."""
-    return record_waveform(without_rest(record).acceleration)
+    return record_waveform(trim_zeros(record).acceleration)
 
 
 def checked_tolerance(value: float) -> float:

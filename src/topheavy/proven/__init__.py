@@ -2,7 +2,7 @@
 
     certified(structure, pulse, factor)        ─►  certificate, or None
     survives_below(structure, pulse, high)     ─►  certificates of boxes of factors from 0 to `high`
-    checking.check(certificate)                ─►  survives | overturns, or Refused
+    checking.check(certificate)                ─►  survives | overturns, or NotProven
 
 Floats propose the steps of a proof; `checking`, which needs the standard library alone, proves or
 refuses each. Dimensions and pulse are exact decimals. Assumed are the model, Python's integers and

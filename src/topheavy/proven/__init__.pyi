@@ -1,6 +1,6 @@
 from . import checking
 from .below import survives_below
-from .search import certified
+from .prover import certified
 
 __all__ = [
     "certified",

@@ -7,7 +7,7 @@ from typing import Any
 from topheavy import checks
 from topheavy.bodies.structures import Structure
 from topheavy.ground.pulses import Pulse
-from topheavy.proven.search import certified
+from topheavy.proven.prover import certified
 
 MIN_BOX_WIDTH = 1e-11
 """Relative to the highest factor: a narrower box that is not proven stays undecided."""

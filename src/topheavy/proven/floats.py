@@ -59,9 +59,9 @@ class Floats:
     def __init__(self, check: Check) -> None:
         self.block, self.ground = check.block, check.ground
         self.linearised = self.block.linearised
-        self.alpha, self.square = middle(self.block.alpha), middle(self.ground.clock)
+        self.alpha, self.kappa_squared = middle(self.block.alpha), middle(self.ground.kappa_squared)
         self.sine, self.cosine = middle(self.block.sine), middle(self.block.cosine)
-        self.level = middle(self.block.level)
+        self.uplift_level = middle(self.block.uplift_level)
 
     def wave(self, sigma: float, n: int) -> list[float]:
         """Return n coefficients of a at a phase."""
@@ -70,8 +70,10 @@ class Floats:
     def potential(self, phi: float, push: float) -> float:
         """Return V(φ, s a)."""
         if self.linearised:
-            return self.square * phi * (self.alpha - phi / 2.0 + push)
-        return self.square * (math.cos(self.alpha - phi) - self.cosine + push * self.lever(phi))
+            return self.kappa_squared * phi * (self.alpha - phi / 2.0 + push)
+        return self.kappa_squared * (
+            math.cos(self.alpha - phi) - self.cosine + push * self.lever(phi)
+        )
 
     def lever(self, phi: float) -> float:
         """Return ψ(φ)."""
@@ -79,7 +81,7 @@ class Floats:
 
     def turn(self, energy: float, push: float) -> float:
         """Return the φ at which a block with this energy turns, or infinity."""
-        level = energy / self.square
+        level = energy / self.kappa_squared
         if self.linearised:
             depth = self.alpha + push
             inside = depth * depth - 2.0 * level
@@ -90,16 +92,16 @@ class Floats:
 
     def series(self, phi: float, rate: float, push: Sequence[float], n: int) -> list[float]:
         """Return coefficients 0 to n of φ."""
-        x, square = [phi, rate], self.square
+        x, kappa_squared = [phi, rate], self.kappa_squared
         if self.linearised:
-            x.append(square * (phi - self.alpha - push[0]) / 2.0)
+            x.append(kappa_squared * (phi - self.alpha - push[0]) / 2.0)
             for k in range(1, n - 1):
-                x.append(square * (x[k] - push[k]) / ((k + 1) * (k + 2)))
+                x.append(kappa_squared * (x[k] - push[k]) / ((k + 1) * (k + 2)))
             return x
         s, c, v = [math.sin(self.alpha - phi)], [math.cos(self.alpha - phi)], [rate]
         for k in range(n - 1):
             pushed = sum(push[j] * c[k - j] for j in range(k + 1))
-            x.append(-square * (s[k] + pushed) / ((k + 1) * (k + 2)))
+            x.append(-kappa_squared * (s[k] + pushed) / ((k + 1) * (k + 2)))
             s.append(-sum(v[j] * c[k - j] for j in range(k + 1)) / (k + 1))
             c.append(sum(v[j] * s[k - j] for j in range(k + 1)) / (k + 1))
             v.append((k + 2) * x[k + 2])

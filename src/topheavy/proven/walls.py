@@ -39,7 +39,7 @@ def proposed(floats: Floats, bound: Bound, sigma: float) -> Iterator[tuple[float
         if any(side.wall >= floats.alpha for side in sides):
             return
         gain = max(rise * floats.lever(side.wall) for rise, side in zip(gains, sides, strict=True))
-        energy = first + floats.square * ENERGY_MARGIN * gain
+        energy = first + floats.kappa_squared * ENERGY_MARGIN * gain
         if all(side.holds(energy) for side in sides):
             yield sides[0].wall, sides[1].wall
         slack = min(1.5 * slack, MAX_SLACK)
@@ -68,5 +68,5 @@ class _Side:
     def _way(self, energy: float) -> float:
         potentials = (self.floats.potential(x, self.least) for x in (self.before, self.wall))
         rates = [math.sqrt(max(0.0, 2.0 * (energy - x))) for x in potentials]
-        is_concave = self.least * self.floats.level < 1.0
+        is_concave = self.least * self.floats.uplift_level < 1.0
         return self.h * (sum(rates) / 2.0 if is_concave else max(rates))

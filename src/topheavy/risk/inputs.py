@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.structures import RockingBlock, Structure, as_block
-from topheavy.checks import short
+from topheavy.checks import short_repr
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import MAX_RECORDED, Record
 
@@ -26,7 +26,7 @@ USUAL_LEVELS = {"PGV": (checks.MAX_USUAL_VELOCITY, "cm/s"), "PGA": (MAX_RECORDED
 MIN_RESAMPLES = 100
 
 PROPORTIONALITY = 1e-6
-"""How far a measure may be from doubling with its motion, over its value."""
+"""How far a measure may be from doubling with its motion, relative to its value."""
 
 
 def named_blocks(structures: Structures) -> dict[str, RockingBlock]:
@@ -36,8 +36,8 @@ def named_blocks(structures: Structures) -> dict[str, RockingBlock]:
     """
     if not isinstance(structures, Mapping | Sequence) or not structures:
         raise ValueError(
-            f"structures is {short(structures)}; expected a mapping from names to structures, or a "
-            "list of structures"
+            f"structures is {short_repr(structures)}; expected a mapping from names to "
+            "structures, or a list of structures"
         )
     named = structures
     if not isinstance(named, Mapping):
@@ -57,11 +57,11 @@ def checked_motions(motions: Sequence[Motion]) -> list[Motion]:
     Motions that are there twice are not independent: a warning names the first two.
     """
     if not isinstance(motions, Sequence) or not motions:
-        raise ValueError(f"motions is {short(motions)}; expected a list of motions, not empty")
+        raise ValueError(f"motions is {short_repr(motions)}; expected a list of motions, not empty")
     for place, motion in enumerate(motions):
         if not isinstance(motion, Motion) or not math.isfinite(motion.duration):
             raise ValueError(
-                f"motions[{place}] is {short(motion)}; expected a Record or a Pulse that ends"
+                f"motions[{place}] is {short_repr(motion)}; expected a Record or a Pulse that ends"
             )
     places: dict[Hashable, int] = {}
     for place, motion in enumerate(motions):
@@ -94,8 +94,8 @@ def checked_vertical(vertical: Sequence[Record] | None, motions: int) -> list[Re
     for place, record in enumerate(vertical):
         if not isinstance(record, Record):
             raise ValueError(
-                f"vertical[{place}] is {short(record)}; expected a Record for every motion: leave "
-                "out the motions without one"
+                f"vertical[{place}] is {short_repr(record)}; expected a Record for every motion: "
+                "leave out the motions without one"
             )
     return list(vertical)
 
@@ -116,15 +116,15 @@ def intensities(motions: Sequence[Motion], measure: Measure) -> NDArray[np.float
             _check_proportional(f"measure of motions[{place}]", measure, motion, value)
     elif measure not in UNITS:
         raise ValueError(
-            f"measure is {short(measure)}; expected 'PGV', 'PGA' or a function of a motion"
+            f"measure is {short_repr(measure)}; expected 'PGV', 'PGA' or a function of a motion"
         )
     else:
         values = []
         for motion in motions:
             if not isinstance(motion, Record):
                 raise ValueError(
-                    f"a motion is {short(motion)}, which has no {measure}; expected a Record, or a "
-                    "function as measure"
+                    f"a motion is {short_repr(motion)}, which has no {measure}; expected a Record, "
+                    "or a function as measure"
                 )
             values.append(motion.peak_velocity if measure == "PGV" else motion.peak_acceleration)
     return np.array(
@@ -154,9 +154,9 @@ def checked_levels(levels: ArrayLike, measure: Measure) -> NDArray[np.float64]:
 
     Levels that are probably in another unit than the measure are warned of.
     """
-    result = checks.axis("levels", levels, zero_allowed=False)
+    result = checks.axis_values("levels", levels, zero_allowed=False)
     if (np.diff(result) <= 0.0).any():
-        raise ValueError(f"levels is {short(result)}; expected levels that increase")
+        raise ValueError(f"levels is {short_repr(result)}; expected levels that increase")
     if isinstance(measure, str) and measure in USUAL_LEVELS:
         usual, other = USUAL_LEVELS[measure]
         if (middle := float(np.median(result))) > usual:
@@ -187,8 +187,8 @@ def checked_groups(groups: Sequence[Hashable] | None, motions: int) -> list[Hash
         return None
     if len(groups) != motions or len(set(groups)) == motions:
         raise ValueError(
-            f"groups is {short(groups)}; expected the group of each of {motions} motions, and two "
-            "motions in one group at least, since motions are resampled within their group"
+            f"groups is {short_repr(groups)}; expected the group of each of {motions} motions, and "
+            "two motions in one group at least, since motions are resampled within their group"
         )
     return list(groups)
 

@@ -11,11 +11,11 @@ import pytest
 
 from topheavy import Pulse
 from topheavy.ground.shapes import FINITE_SHAPES, SHAPES
-from topheavy.proven.checking import Check, Refused, intervals
+from topheavy.proven.checking import Check, NotProven, intervals
 from topheavy.proven.checking.bounds import SIDES, Bound
-from topheavy.proven.checking.course import Course
 from topheavy.proven.checking.intervals import Interval, arctangent, cosine, dot, enclose, sine
 from topheavy.proven.checking.model import Block, Ground
+from topheavy.proven.checking.taylor_model import TaylorModel
 
 BITS = 112
 
@@ -116,10 +116,10 @@ def course(phi, rate, order, *, linearised=True, h=Fraction(1, 2), side=1):
     block = Block(NUMBERS, linearised)
     pulse = {"wave": "constant", "half_periods": 1, "angular_frequency": "1"}
     pulse |= {"amplitude": str(side * PUSH)}
-    state = SimpleNamespace(block=block, order=order, side=side, sigma=enclose(0), zeros=0)
+    state = SimpleNamespace(block=block, order=order, side=side, sigma=enclose(0), zero_order=0)
     state.phi, state.rate = enclose(Fraction(phi)), enclose(Fraction(rate))
     state.ground = Ground(pulse, ("1", "1"), enclose(KAPPA * KAPPA))
-    return Course(state, h)
+    return TaylorModel(state, h)
 
 
 def closed_form(phi, rate, time):
@@ -167,11 +167,11 @@ def test_wall_that_the_energy_reaches_in_the_step_is_refused():
     far, near = (enclose(Fraction(share, 10**6)) for share in (470, 430))
     assert bound.stepped(enclose(Fraction(1, 100)), (far, far)).walls == (far, far)
     for walls in ((near, far), (far, near)):
-        with pytest.raises(Refused, match="a wall may be passed"):
+        with pytest.raises(NotProven, match="a wall may be passed"):
             bound.stepped(enclose(Fraction(1, 100)), walls)
     beyond = Fraction(22, 100), Fraction(23, 100)  # a = 0.15 g: V is 0.0050 at 0.15, 0.0006 at 0.29
     bound = replace(bound, sigma=enclose(beyond[0]), walls=(enclose(0), enclose(Fraction(29, 100))))
-    with pytest.raises(Refused, match="a wall may be passed"):
+    with pytest.raises(NotProven, match="a wall may be passed"):
         bound.stepped(enclose(beyond[1]), (far, enclose(Fraction(15, 100))))
 
 
@@ -199,7 +199,7 @@ def test_free_motion_is_judged_by_its_energy(linearised):
     for phi, rate in (("0.3", "0"), ("0.1", "-0.1646")):  # an equilibrium; a rebound to the barrier
         check.result, check.phi, rates = "", enclose(Fraction(phi)), Fraction(rate)
         check.rate = enclose(rates - Fraction(1, 1000)).hull(enclose(rates + Fraction(1, 1000)))
-        with pytest.raises(Refused, match="too near the barrier"):
+        with pytest.raises(NotProven, match="too near the barrier"):
             check.end()
 
 
@@ -217,7 +217,7 @@ def test_push_over_a_step_and_what_it_gains_are_bounded(start):
 
 def test_remainder_of_the_quotient_by_time_is_not_differentiated_as_one_interval():
     """ρ = R(τ) τ³ with R in [−1, 1]: τ² sin(1/τ)-like remainders are steeper than 2 R τ."""
-    step = Course.__new__(Course)
+    step = TaylorModel.__new__(TaylorModel)
     step.phi = [enclose(0), enclose(1), enclose(0), enclose(-1).hull(1)]
     slope = step.quotient(1)[1]
     assert slope[-1].high >= 4 * intervals.UNIT  # 3 R' − R for R' = 1, R = −1

@@ -13,8 +13,8 @@ import pytest
 import topheavy as th
 from tests.cases import BLOCK, COLUMN, run_alone
 from topheavy.proven import certified
-from topheavy.proven.checking import Refused, check, schema
-from topheavy.proven.question import question
+from topheavy.proven.checking import NotProven, check, schema
+from topheavy.proven.problem import problem_of
 
 PULSE = th.Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5)
 
@@ -24,7 +24,7 @@ def honest(structure, pulse, factor=1.0):
 
 
 def refused(certificate, words):
-    with pytest.raises(Refused, match=words):
+    with pytest.raises(NotProven, match=words):
         check(certificate)
 
 
@@ -87,7 +87,7 @@ def test_changed_certificate_is_refused(change, reason):
 
 @pytest.mark.parametrize("sigma", ["2.2", "4.1", "6"])
 def test_uplift_after_the_ground_has_lifted_the_block_is_refused(sigma):
-    problem = question(COLUMN, th.Pulse("one-sine", 0.2, 3.0), 1.0)
+    problem = problem_of(COLUMN, th.Pulse("one-sine", 0.2, 3.0), 1.0)
     proof = {"outcome": "survives", "impacts": 0, "bits": 112, "order": 16}
     events = [{"event": "uplift", "sigma": sigma}]
     refused(problem | proof | {"events": events}, "lift the block earlier|sign")
@@ -148,7 +148,7 @@ def put(entries, at, value):
     return result
 
 
-GAINS = question(BLOCK, PULSE, 1.0)["structure"] | {"restitution": "1.1"}
+GAINS = problem_of(BLOCK, PULSE, 1.0)["structure"] | {"restitution": "1.1"}
 WRONG = (None, True, 0, -1, 1.5, math.nan, "x", "", "nan", "1e10", "1/0", "1_0", " 1", "9" * 3000)
 WRONG += ([], {}, ["0", "0"], ["0", "1", "2"], 10**30, "0.٥")
 
@@ -156,7 +156,7 @@ WRONG += ([], {}, ["0", "0"], ["0", "1", "2"], 10**30, "0.٥")
 def is_of_the_form(certificate):
     try:
         schema.validated(certificate)
-    except Refused:
+    except NotProven:
         return False
     return True
 
@@ -200,7 +200,7 @@ def test_no_number_in_the_events_makes_another_outcome(value):
     for certificate in KINDS:
         for at in places({"events": certificate["events"][:4]}):
             if isinstance(entry(certificate, at), str) and at[-1] != "event":
-                with contextlib.suppress(Refused):
+                with contextlib.suppress(NotProven):
                     assert check(put(certificate, at, value)) == certificate["outcome"]
 
 
@@ -213,7 +213,7 @@ def test_events_of_another_certificate_prove_its_outcome_or_nothing():
         rows += [[*first[:n], event, *first[n:]] for n in (1, 2) for event in other["events"][-3:]]
         rows += [[*first[:n], *reversed(first[n : n + 2]), *first[n + 2 :]] for n in range(count)]
         for events in rows:
-            with contextlib.suppress(Refused):
+            with contextlib.suppress(NotProven):
                 assert check(mine | {"events": events}) == mine["outcome"]
 
 

@@ -22,7 +22,7 @@ if not __package__:  # run as a folder, which is a package of its own then; ends
     runpy.run_module(folder.name, run_name="__main__")
 
 from .checker import check
-from .intervals import Refused
+from .intervals import NotProven
 
 MAX_LINE = 100_000  # characters
 USAGE = "usage: python3 -I -S src/topheavy/proven/checking FILE…"
@@ -34,22 +34,22 @@ Range = tuple[Fraction, Fraction, str]
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     entries = dict(pairs)
     if len(entries) < len(pairs):
-        raise Refused("a key occurs twice")
+        raise NotProven("a key occurs twice")
     return entries
 
 
 def _no_number(text: str) -> Any:
-    raise Refused(f"{text} is no JSON")
+    raise NotProven(f"{text} is no JSON")
 
 
 def parsed(line: str) -> Any:
     """Return a certificate from its JSON; one with a key twice, or with NaN, is refused."""
     if len(line) > MAX_LINE:
-        raise Refused(f"it is longer than {MAX_LINE} characters")
+        raise NotProven(f"it is longer than {MAX_LINE} characters")
     try:
         return json.loads(line, object_pairs_hook=_once, parse_constant=_no_number)
     except (ValueError, RecursionError) as fault:
-        raise Refused(f"no JSON: {fault}") from None
+        raise NotProven(f"no JSON: {fault}") from None
 
 
 def problem(certificate: dict[str, Any]) -> str:
@@ -101,7 +101,7 @@ def main(paths: list[str]) -> str | None:
                 peak = Fraction(certificate["pulse"]["amplitude"])
                 low, high = sorted(peak * end for end in ends)
                 proven.setdefault(problem(certificate), []).append((low, high, outcome))
-        except Refused as reason:
+        except NotProven as reason:
             return f"{path}, line {number} is refused: {reason}"
         except (OSError, EOFError, UnicodeDecodeError, zlib.error) as fault:
             return f"{path} cannot be read: {fault}"

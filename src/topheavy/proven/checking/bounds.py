@@ -29,7 +29,7 @@ lasts at least 2 (Y_s − X_s)/(v(X_s) + v(Y_s)) > h. Each flight begins at a φ
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .intervals import Interval, Refused, enclose, point
+from .intervals import Interval, NotProven, enclose, point
 from .model import Block, Ground
 
 SIDES = (1, -1)
@@ -54,8 +54,8 @@ class Bound:
             return cls(block, ground, sigma, enclose(0), (enclose(0), enclose(0)))
         phi, rate = state
         push, middle = side * ground.at(sigma), point(phi.middle)
-        energy = ground.clock * block.potential(middle, push) + rate * rate / 2
-        energy = energy + ground.clock * block.pull(phi, push) * (phi - middle)
+        energy = ground.kappa_squared * block.potential(middle, push) + rate * rate / 2
+        energy = energy + ground.kappa_squared * block.pull(phi, push) * (phi - middle)
         wall, none = point(max(phi.high, 0)), enclose(0)
         walls = (wall, none) if side == 1 else (none, wall)
         return cls(block, ground, sigma, point(max(energy.high, 0)), walls)
@@ -71,12 +71,12 @@ class Bound:
         return h, [side * ends for side in SIDES], [side * (h * rate) for side in SIDES]
 
     def stepped(self, until: Interval, walls: tuple[Interval, Interval]) -> "Bound":
-        """Return the bound at a later σ, or raise `Refused` unless the lemma proves its walls."""
+        """Return the bound at a later σ, or raise `NotProven` unless the lemma proves its walls."""
         if not until > self.sigma:
-            raise Refused("a step goes back")
+            raise NotProven("a step goes back")
         h, grounds, rises = self.pushes(until)
         if any(wall.low < 0 for wall in walls):
-            raise Refused("a wall is below zero")
+            raise NotProven("a wall is below zero")
         energy = self._raised(rises, walls)
         for before, wall, ground in zip(self.walls, walls, grounds, strict=True):
             self._holds(h, energy, before, wall, point(ground.low))
@@ -85,29 +85,31 @@ class Bound:
     def _raised(self, rises: list[Interval], walls: tuple[Interval, Interval]) -> Interval:
         """Return the energy after s a has risen so much on one side."""
         gains = [(x * self.block.lever(y)).high for x, y in zip(rises, walls, strict=True)]
-        return point((self.energy + self.ground.clock * point(max(*gains, 0))).high)
+        return point((self.energy + self.ground.kappa_squared * point(max(*gains, 0))).high)
 
     def _holds(
         self, h: Interval, energy: Interval, before: Interval, wall: Interval, push: Interval
     ) -> None:
         if not (wall < self.block.alpha and before < self.block.alpha):
-            raise Refused("a wall is not below α")
-        old, new = (self.ground.clock * self.block.potential(x, push) for x in (before, wall))
+            raise NotProven("a wall is not below α")
+        old, new = (
+            self.ground.kappa_squared * self.block.potential(x, push) for x in (before, wall)
+        )
         if new > energy and (wall.low >= before.high or old > energy):
             return
         rates = [_positive(2 * (energy - x)).root() for x in (old, new)]
         mean = (rates[0] + rates[1]) / 2
-        if not push * self.block.level < 1:
+        if not push * self.block.uplift_level < 1:
             mean = rates[0] if rates[0].high > rates[1].high else rates[1]
         if not wall - before > h * mean:
-            raise Refused("a wall may be passed")
+            raise NotProven("a wall may be passed")
 
     def survives(self) -> bool:
         """Return whether the pulse is over, and the energy below the barrier when a has jumped."""
         if not self.sigma.low >= self.ground.stop.high:
-            raise Refused("the bound ends before the pulse")
+            raise NotProven("the bound ends before the pulse")
         jump = -self.ground.at(self.ground.stop)
-        barrier = self.ground.clock * self.block.potential(self.block.alpha, enclose(0))
+        barrier = self.ground.kappa_squared * self.block.potential(self.block.alpha, enclose(0))
         return self._raised([side * jump for side in SIDES], self.walls) < barrier
 
 

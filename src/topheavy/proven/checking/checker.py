@@ -10,10 +10,10 @@ from typing import Any
 
 from . import intervals
 from .bounds import Bound, rounded_up
-from .course import Course, horner
-from .intervals import Interval, Refused, arctangent, cosine, enclose, point, sine
+from .intervals import Interval, NotProven, arctangent, cosine, enclose, point, sine
 from .model import Block, Ground
 from .schema import validated
+from .taylor_model import TaylorModel, horner
 
 MAX_PARTS = 2**30  # parts of a span: a sign that is unproven on such a small part stays unproven
 N_HALVINGS = 6  # of either side of a bracket, towards the part where neither sign is proven
@@ -28,7 +28,7 @@ def _holds(test: Test, low: int, high: int, reason: str) -> None:
         low, high = parts.pop()
         if not test(Interval(low, high)):
             if high - low <= finest:
-                raise Refused(reason)
+                raise NotProven(reason)
             middle = (low + high) // 2
             parts += [(middle, high), (low, middle)]
 
@@ -53,7 +53,7 @@ def _reached(start: int, test: Test, sign: int) -> int:
     while not test(point(start + sign * grow)):
         grow = 2 * grow + 1
         if grow > intervals.UNIT:
-            raise Refused("nothing changes its sign near the hint")
+            raise NotProven("nothing changes its sign near the hint")
     return start + sign * grow
 
 
@@ -72,20 +72,20 @@ class Check:
         validated(certificate)
         intervals.precision(certificate["bits"])
         self.block = Block(certificate["structure"], certificate["linearised"])
-        self.ground = Ground(certificate["pulse"], certificate["factor"], self.block.square)
+        self.ground = Ground(certificate["pulse"], certificate["factor"], self.block.p_squared)
         self.order = certificate["order"]
         self.quarter_turn = arctangent(enclose(1)) * 2
         self.sigma, self.phi, self.rate = enclose(0), enclose(0), enclose(0)
         self.energy = enclose(0)  # φ'²/2 + κ² (Φ + s a ψ): it encloses what state and time share
-        self.side = self.impacts = self.zeros = 0
+        self.side = self.impacts = self.zero_order = 0
         self.is_over = False  # the pulse
         self.bound: Bound | None = None  # in place of the state
         self.result = ""
 
-    def take(self, event: dict[str, Any]) -> None:
-        """Prove the next event, or raise `Refused`."""
+    def verify_event(self, event: dict[str, Any]) -> None:
+        """Prove the next event, or raise `NotProven`."""
         if self.result or self.is_over:
-            raise Refused("the motion is already decided")
+            raise NotProven("the motion is already decided")
         match event["event"]:
             case "uplift":
                 self._uplift(Fraction(event["sigma"]))
@@ -94,7 +94,7 @@ class Check:
             case "walls":
                 self._walls(event["sigma"], event["walls"])
             case "gone":
-                self._gone()
+                self._cannot_return()
 
     @property
     def proven_impacts(self) -> int | None:
@@ -103,9 +103,9 @@ class Check:
 
     def _followed(self, *, rests: bool) -> None:
         if self.bound:
-            raise Refused("the motion is bounded and no longer followed")
+            raise NotProven("the motion is bounded and no longer followed")
         if rests == bool(self.side):
-            raise Refused("the block is not at rest" if rests else "the block is at rest")
+            raise NotProven("the block is not at rest" if rests else "the block is at rest")
 
     def _uplift(self, hint: Fraction) -> None:
         """From rest: |a| stays below the level up to a bracket, in which it passes through it.
@@ -114,15 +114,15 @@ class Check:
         """
         self._followed(rests=True)
         if self._is_above(enclose(0)):
-            self.sigma, self.zeros = enclose(0), 2
+            self.sigma, self.zero_order = enclose(0), 2
         else:
             low, high = _bracket(enclose(hint).middle, self._is_below, self._is_above)
             if low < 0:
-                raise Refused("it begins earlier than the motion")
+                raise NotProven("it begins earlier than the motion")
             if high >= self.ground.stop.low:
-                raise Refused("the pulse may have ended")
+                raise NotProven("the pulse may have ended")
             self._still(low)
-            self.sigma, self.zeros = Interval(low, high), 3
+            self.sigma, self.zero_order = Interval(low, high), 3
         self.side = 1 if self.ground.at(point(self.sigma.high)) < 0 else -1
 
     def _still(self, until: int) -> None:
@@ -137,45 +137,45 @@ class Check:
         _holds(below, 0, until, "the ground may lift the block earlier")
 
     def _is_below(self, sigma: Interval) -> bool:
-        return self.ground.at(sigma).size() < self.block.level
+        return self.ground.at(sigma).size() < self.block.uplift_level
 
     def _is_above(self, sigma: Interval) -> bool:
-        return self.ground.at(sigma).size() > self.block.level
+        return self.ground.at(sigma).size() > self.block.uplift_level
 
     def _step(self, h: Fraction, impact: str | None, *, is_last: bool) -> None:
         self._followed(rests=False)
         if not self.sigma < self.ground.stop:
-            raise Refused("the pulse may have ended")
+            raise NotProven("the pulse may have ended")
         left = self.ground.stop - self.sigma
         if is_last:
             h = max(h, Fraction(left.high, intervals.UNIT))
         elif not enclose(h) < left:
-            raise Refused("a step goes on beyond the pulse")
+            raise NotProven("a step goes on beyond the pulse")
         if not h > 0:
-            raise Refused("a step goes back")
-        course = Course(self, h)
-        end = left / course.h if is_last else enclose(1)
+            raise NotProven("a step goes back")
+        model = TaylorModel(self, h)
+        end = left / model.h if is_last else enclose(1)
         if impact is None:
-            if self.zeros or not course.box > 0:
-                self._is_positive(course, end.high, falls=False)
+            if self.zero_order or not model.box > 0:
+                self._is_positive(model, end.high, falls=False)
         else:
-            end = self._impact_in(course, enclose(Fraction(impact) / h).middle)
-            if is_last and not end < left / course.h:
-                raise Refused("the impact may come after the end of the pulse")
-        if not self._lies_flat(course, end):
-            self.phi, self.rate = course.at(end)
-            self.energy = self.energy + horner(course.gain, end)
+            end = self._impact_in(model, enclose(Fraction(impact) / h).middle)
+            if is_last and not end < left / model.h:
+                raise NotProven("the impact may come after the end of the pulse")
+        if not self._lies_flat(model, end):
+            self.phi, self.rate = model.at(end)
+            self.energy = self.energy + horner(model.gain, end)
             if impact is not None:
-                self._lands(course.landing(end, self.zeros), end * course.h)
+                self._lands(model.landing(end, self.zero_order), end * model.h)
             else:
-                self.sigma = self.ground.stop if is_last else self.sigma + course.h
-                self.zeros, self.is_over = 0, is_last
+                self.sigma = self.ground.stop if is_last else self.sigma + model.h
+                self.zero_order, self.is_over = 0, is_last
                 self._sharpen()
 
     def _lands(self, rate: Interval, after: Interval) -> None:
         self.energy = self.energy.common(rate * rate / 2)
         self.impacts, self.sigma, self.phi = self.impacts + 1, self.sigma + after, enclose(0)
-        self.zeros, self.side = 1, -self.side
+        self.zero_order, self.side = 1, -self.side
         self.rate = -self.block.restitution * rate
         self.energy = self.block.restitution * self.block.restitution * self.energy
         if self.energy > 0 and self.rate > 0:
@@ -184,7 +184,7 @@ class Check:
     def _sharpen(self) -> None:
         """Let energy and velocity narrow each other."""
         push = self.side * self.ground.at(self.sigma)
-        potential = self.ground.clock * self.block.potential(self.phi, push)
+        potential = self.ground.kappa_squared * self.block.potential(self.phi, push)
         self.energy = self.energy.common(potential + self.rate * self.rate / 2)
         square = 2 * (self.energy - potential)
         if square > 0 and (self.rate > 0 or self.rate < 0):
@@ -199,23 +199,23 @@ class Check:
         """Bound the motion from here on, or bound it further."""
         bound = self.bounded()
         if bound.sigma.low >= self.ground.stop.high:
-            raise Refused("a step comes after the pulse")
+            raise NotProven("a step comes after the pulse")
         one, other = map(rounded_up, walls)
         self.bound = bound.stepped(rounded_up(until), (one, other))
 
-    def _impact_in(self, course: Course, hint: int) -> Interval:
+    def _impact_in(self, model: TaylorModel, hint: int) -> Interval:
         """Return the interval of the first τ > 0 with φ = 0."""
         low, high = _bracket(
-            hint, lambda x: horner(course.phi, x) > 0, lambda x: horner(course.phi, x) < 0
+            hint, lambda x: horner(model.phi, x) > 0, lambda x: horner(model.phi, x) < 0
         )
         if high > intervals.UNIT or low < 0:
-            raise Refused("the impact may come outside of the step")
-        self._is_positive(course, high, falls=True)
+            raise NotProven("the impact may come outside of the step")
+        self._is_positive(model, high, falls=True)
         return Interval(low, high)
 
-    def _is_positive(self, course: Course, until: int, *, falls: bool) -> None:
+    def _is_positive(self, model: TaylorModel, until: int, *, falls: bool) -> None:
         """Prove φ > 0 from behind the start until a time; or, where it falls, one zero before."""
-        quotient, slope = course.quotient(self.zeros)
+        quotient, slope = model.quotient(self.zero_order)
 
         def positive(x: Interval) -> bool:
             if horner(quotient, x) > 0:
@@ -224,22 +224,22 @@ class Check:
             return steep > 0 or (falls and x.high == until and steep < 0)
 
         if not quotient[0] > 0:
-            raise Refused("it may not leave the ground")
+            raise NotProven("it may not leave the ground")
         _holds(positive, 0, until, "there may be an impact")  # in ascending order
 
-    def _lies_flat(self, course: Course, end: Interval) -> bool:
-        if self.block.linearised or course.box < self.quarter_turn:
+    def _lies_flat(self, model: TaylorModel, end: Interval) -> bool:
+        if self.block.linearised or model.box < self.quarter_turn:
             return False
-        if not course.at(end)[0] > self.quarter_turn:
-            raise Refused("it may lie flat, or not")
+        if not model.at(end)[0] > self.quarter_turn:
+            raise NotProven("it may lie flat, or not")
         self.result = "overturns"
         return True
 
-    def _gone(self) -> None:
+    def _cannot_return(self) -> None:
         """It moves outward with tan(φ − α) beyond any push that is still to come."""
         self._followed(rests=False)
         if not self.rate > 0:
-            raise Refused("it does not move outward")
+            raise NotProven("it does not move outward")
         largest = self.ground.largest
         if self.block.linearised:
             beyond = self.phi - self.block.alpha > largest
@@ -249,7 +249,7 @@ class Check:
             along = self.block.cosine * c + self.block.sine * s
             beyond = across > 0 and (along < 0 or across > largest * along)
         if not beyond:
-            raise Refused("a later push may bring it back")
+            raise NotProven("a later push may bring it back")
         self.result = "overturns"
 
     def end(self) -> str:
@@ -259,7 +259,7 @@ class Check:
         overturns = False
         if self.bound:
             if not self.bound.survives():
-                raise Refused("the energy may be beyond the barrier")
+                raise NotProven("the energy may be beyond the barrier")
         elif self.side:
             overturns = self._overturns_freely()
         else:
@@ -270,10 +270,10 @@ class Check:
     def _overturns_freely(self) -> bool:
         """Return whether a motion overturns behind the pulse; an impact that it needs counts."""
         if not self.is_over:
-            raise Refused("the pulse has not ended")
+            raise NotProven("the pulse has not ended")
         if not self.phi > 0:
-            raise Refused("it may be about to land")
-        block, kinetic = self.block, self.rate * self.rate / (2 * self.ground.clock)
+            raise NotProven("it may be about to land")
+        block, kinetic = self.block, self.rate * self.rate / (2 * self.ground.kappa_squared)
         off = block.alpha - self.phi
         if block.linearised:
             surplus, barrier = kinetic - off * off / 2, block.alpha * block.alpha / 2
@@ -288,11 +288,11 @@ class Check:
         if inward and rebound > 0:
             self.impacts += 1
             return True
-        raise Refused("its energy is too near the barrier")
+        raise NotProven("its energy is too near the barrier")
 
 
 def check(certificate: dict[str, Any]) -> str:
-    """Return the outcome that a certificate proves, or raise `Refused` with the first gap.
+    """Return the outcome that a certificate proves, or raise `NotProven` with the first gap.
 
     Parameters
     ----------
@@ -302,11 +302,11 @@ def check(certificate: dict[str, Any]) -> str:
     motion = Check(certificate)
     for number, event in enumerate(certificate["events"]):
         try:
-            motion.take(event)
-        except Refused as reason:
-            raise Refused(f"event {number}, {event['event']}: {reason}") from None
+            motion.verify_event(event)
+        except NotProven as reason:
+            raise NotProven(f"event {number}, {event['event']}: {reason}") from None
     proven, named = (motion.end(), motion.proven_impacts), ("outcome", "impacts")
     for name, value in zip(named, proven, strict=True):
         if certificate[name] != value:
-            raise Refused(f"the {name} in the certificate: {certificate[name]}; proven: {value}")
+            raise NotProven(f"the {name} in the certificate: {certificate[name]}; proven: {value}")
     return motion.end()

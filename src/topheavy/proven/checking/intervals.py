@@ -9,7 +9,7 @@ PLACES = 0  # P of all intervals, set by `precision`
 UNIT = 1  # 2^P
 
 
-class Refused(ValueError):
+class NotProven(ValueError):
     """A step of a certificate is not proven; the argument names the step and the reason."""
 
 
@@ -53,7 +53,7 @@ class Interval:
                 return -self / -other
             return Interval(self.low // other, -(-self.high // other))
         if other.low <= 0 <= other.high:
-            raise Refused("a divisor may be zero")
+            raise NotProven("a divisor may be zero")
         pairs = [(n * UNIT, d) for n in (self.low, self.high) for d in (other.low, other.high)]
         return Interval(min(n // d for n, d in pairs), max(-(-n // d) for n, d in pairs))
 
@@ -84,12 +84,12 @@ class Interval:
         """Return the intersection of two enclosures of the same number."""
         low, high = max(self.low, other.low), min(self.high, other.high)
         if low > high:
-            raise Refused("two enclosures of a number do not meet")
+            raise NotProven("two enclosures of a number do not meet")
         return Interval(low, high)
 
     def root(self) -> "Interval":
         if self.low < 0:
-            raise Refused("the argument of a root may be negative")
+            raise NotProven("the argument of a root may be negative")
         return Interval(math.isqrt(self.low * UNIT), math.isqrt(self.high * UNIT) + 1)
 
     def size(self) -> "Interval":

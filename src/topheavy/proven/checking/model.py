@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import Any
 
 from . import intervals
-from .intervals import Interval, Refused, arctangent, cosine, dot, enclose, exponential, sine
+from .intervals import Interval, NotProven, arctangent, cosine, dot, enclose, exponential, sine
 
 MAX_WAVE = Fraction(10001, 10000)  # of |f|: the antisymmetric Ricker pulse peaks at 1.00002
 
@@ -20,17 +20,17 @@ class Block:
         if kind == "block":
             self.alpha = enclose(value["slenderness"])
             self.sine, self.cosine = sine(self.alpha), cosine(self.alpha)
-            self.square = enclose(value["frequency_parameter"] ** 2)
+            self.p_squared = enclose(value["frequency_parameter"] ** 2)
             self.restitution = enclose(value["restitution"])
         else:
             base, height, inertia, root = _rigid(kind, value, structure["mass_ratio"])
             distance = enclose(base * base + height * height).root()
             self.sine, self.cosine = enclose(base) / distance, enclose(height) / distance
-            self.square = enclose(value["gravity"]) * distance / enclose(inertia)
+            self.p_squared = enclose(value["gravity"]) * distance / enclose(inertia)
             self.alpha, self.restitution = arctangent(enclose(base / height)), enclose(root)
         if not (self.restitution.low >= 0 and self.restitution.high <= intervals.UNIT + 1):
-            raise Refused("√r is outside of 0 to 1: the block does not rock after an impact")
-        self.level = self.alpha if linearised else self.sine / self.cosine
+            raise NotProven("√r is outside of 0 to 1: the block does not rock after an impact")
+        self.uplift_level = self.alpha if linearised else self.sine / self.cosine
 
     def pull(self, phi: Interval, push: Interval) -> Interval:
         """Return −φ''/κ² at a rotation φ under s a."""
@@ -73,10 +73,12 @@ def _rigid(
 class Ground:
     """The acceleration a(σ) of a pulse, in g, for all factors on it; σ = ωt is its phase."""
 
-    def __init__(self, pulse: dict[str, Any], factor: Sequence[str], square: Interval) -> None:
+    def __init__(self, pulse: dict[str, Any], factor: Sequence[str], p_squared: Interval) -> None:
         low, high = (Fraction(pulse["amplitude"]) * Fraction(end) for end in factor)
         self.wave, self.amplitude = pulse["wave"], enclose(low).hull(enclose(high))
-        self.clock = square / enclose(Fraction(pulse["angular_frequency"]) ** 2)  # κ² = (p/ω)²
+        self.kappa_squared = p_squared / enclose(
+            Fraction(pulse["angular_frequency"]) ** 2
+        )  # κ² = (p/ω)²
         first, second = (arctangent(enclose(Fraction(1, n))) for n in (5, 239))
         self.pi = 16 * first - 4 * second
         self.stop = self.pi * pulse["half_periods"]

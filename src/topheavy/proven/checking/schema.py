@@ -8,7 +8,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from .intervals import Refused
+from .intervals import NotProven
 
 Test = Callable[[str, Any], None]
 
@@ -21,7 +21,7 @@ MAX_EVENTS = 20_000
 
 
 def _refuse(where: str, value: Any, expected: str) -> None:
-    raise Refused(f"{where} is {repr(value)[:60]}; expected {expected}")
+    raise NotProven(f"{where} is {repr(value)[:60]}; expected {expected}")
 
 
 def number(low: Any = -MAX_NUMBER, high: Any = MAX_NUMBER, form: str = NUMBER) -> Test:
@@ -86,13 +86,13 @@ def events(where: str, value: Any) -> None:
 
 
 def _fits(where: str, value: Any, form: Any) -> None:
-    """Raise `Refused` unless a value has a form: these keys, this many entries, or a test."""
+    """Raise `NotProven` unless a value has a form: these keys, this many entries, or a test."""
     if isinstance(form, dict):
         if not isinstance(value, dict):
             _refuse(where, value, "a mapping")
         for key in value.keys() ^ form.keys():
             verb = "has" if key in value else "lacks"
-            raise Refused(f"{where} {verb} {key!r}; expected {', '.join(form)}")
+            raise NotProven(f"{where} {verb} {key!r}; expected {', '.join(form)}")
         for key, inner in form.items():
             _fits(f"{where}.{key}", value[key], inner)
     elif isinstance(form, tuple):
@@ -145,7 +145,7 @@ CERTIFICATE = {
 
 
 def validated(certificate: Any) -> None:
-    """Raise `Refused`, with the entry and what was expected, unless a certificate has the form."""
+    """Raise `NotProven`, with the entry and what is expected, unless a certificate has the form."""
     _fits("certificate", certificate, CERTIFICATE)
     low, high = map(Fraction, certificate["factor"])
     if not low <= high:

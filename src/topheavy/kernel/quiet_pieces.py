@@ -23,7 +23,7 @@ from topheavy.kernel.taylor import INVERSE, State
 MAX_TURN = 0.05
 #: Pieces beyond φ = α after which the driver looks whether the block is certain to overturn.
 MAX_PIECES_BEYOND = 32
-#: Over φ = π/2: up to this rotation no piece reaches the end of the exact motion.
+#: Relative to φ = π/2: up to this rotation no piece reaches the end of the exact motion.
 MAX_ROTATION = 0.9
 
 
@@ -105,7 +105,7 @@ def turned(sine, cosine, turn):
 
 
 @compiled(fastmath={"contract"})
-def march(block, forcing, state, piece, tolerance, peak):
+def skip_quiet_pieces(block, forcing, state, piece, tolerance, peak):
     """Pass over pieces of a record until one holds an event, a turn, or too strong a bend.
 
     The block rocks under the exact equation; `state` is that at the first sample of `piece`. A
@@ -153,7 +153,10 @@ def march(block, forcing, state, piece, tolerance, peak):
         sine, cosine = turned(sine, cosine, turn)
         piece += 1
         value, slope, gravity, change = ground_of_piece(forcing, piece)
-        push, rate = -side * value - block.level * gravity, -side * slope - block.level * change
+        push, rate = (
+            -side * value - block.uplift_level * gravity,
+            -side * slope - block.uplift_level * change,
+        )
     time = piece_start(forcing, piece)
     state = State(time, side, rotation, velocity, sine, cosine, push, rate, gravity, change)
     return piece, state, peak

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from . import intervals
-from .intervals import Interval, Refused, cosine, dot, enclose, extremes, sine
+from .intervals import Interval, NotProven, cosine, dot, enclose, extremes, sine
 from .model import Block, Ground
 
 MAX_BOXES = 12  # tried for one step
@@ -26,14 +26,14 @@ class State(Protocol):
     sigma: Interval
     phi: Interval
     rate: Interval
-    zeros: int
+    zero_order: int
 
 
-class Course:
+class TaylorModel:
     """φ and φ' over a step as polynomials in τ = t/h, the last coefficients being remainders."""
 
     def __init__(self, start: State, h: Fraction) -> None:
-        self.h, self.kappa = enclose(h), start.ground.clock
+        self.h, self.kappa = enclose(h), start.ground.kappa_squared
         span, time = start.sigma + self.h.hull(0), self.h.hull(0)
         push = start.side * start.ground.at(span)
         phi, rate, n = start.phi, start.rate, start.order
@@ -46,14 +46,14 @@ class Course:
             if image.inside(box):
                 break
         else:
-            raise Refused("no box holds the motion of the step")
+            raise NotProven("no box holds the motion of the step")
         self.box = image
         self.phi, self.rate, slopes, lever = self._develop(start, start.sigma, phi, rate)
         ends = self._develop(start, span, image, rate + time * force)
         self.phi[n], self.rate[n] = ends[0][n], ends[1][n]
         gains = [self._gain(slopes, lever, k) for k in range(1, n - 1)]
         self.gain = [enclose(0), *gains, self._gain(*ends[2:], n - 1)]
-        self.phi[: start.zeros] = [enclose(0)] * start.zeros
+        self.phi[: start.zero_order] = [enclose(0)] * start.zero_order
 
     def _develop(self, start: State, sigma: Interval, phi: Interval, rate: Interval) -> Series:
         """Return the coefficients 0 to n of φ and φ', and those of s a' and ψ.
@@ -82,19 +82,21 @@ class Course:
         """Return coefficient k > 0 of the gain in φ'²/2 + κ² (Φ + s a ψ); its rate is κ² s a' ψ."""
         return self.kappa * dot(slopes, lever[k - 1 :: -1]) / k
 
-    def quotient(self, zeros: int) -> tuple[list[Interval], list[Interval]]:
-        """Return q of φ = τ^k q, k = `zeros`, and q'.
+    def quotient(self, zero_order: int) -> tuple[list[Interval], list[Interval]]:
+        """Return q of φ = τ^k q, k = `zero_order`, and q'.
 
         The remainder of q' is n R' − k R of two values of one interval.
         """
         x, n = self.phi, len(self.phi) - 1
-        slope = [(j - zeros) * x[j] for j in range(zeros + 1, n)] + [n * x[n] - zeros * x[n]]
-        return x[zeros:], slope
+        slope = [(j - zero_order) * x[j] for j in range(zero_order + 1, n)] + [
+            n * x[n] - zero_order * x[n]
+        ]
+        return x[zero_order:], slope
 
-    def landing(self, tau: Interval, zeros: int) -> Interval:
+    def landing(self, tau: Interval, zero_order: int) -> Interval:
         """Return φ' where φ vanishes: after a bounce q' encloses it more closely."""
-        rate = horner(self.quotient(zeros)[1], tau) / self.h
-        for _ in range(zeros):
+        rate = horner(self.quotient(zero_order)[1], tau) / self.h
+        for _ in range(zero_order):
             rate = rate * tau
         return rate.common(horner(self.rate, tau))
 

@@ -14,7 +14,7 @@ from topheavy.ground.pulses import Pulse
 from topheavy.ground.shapes import SHAPES
 
 
-def question(
+def problem_of(
     structure: Structure, pulse: Pulse, factor: float | tuple[float, float]
 ) -> dict[str, Any]:
     """Return the entries of a certificate that say what it is about.
@@ -26,7 +26,7 @@ def question(
         not ascend, and a structure whose √r is negative.
     """
     if not isinstance(pulse, Pulse):
-        raise ValueError(f"pulse is {checks.short(pulse)}; expected a Pulse")
+        raise ValueError(f"pulse is {checks.short_repr(pulse)}; expected a Pulse")
     checked_excitation(pulse, ends=True)
     ends = factor if isinstance(factor, tuple) else (factor, factor)
     low, high = (checks.finite("factor", end) for end in ends)

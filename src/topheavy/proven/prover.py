@@ -14,16 +14,16 @@ from typing import Any
 from topheavy.bodies.structures import Structure
 from topheavy.ground.pulses import Pulse
 from topheavy.proven.checking.checker import Check
-from topheavy.proven.checking.intervals import Refused
+from topheavy.proven.checking.intervals import NotProven
 from topheavy.proven.floats import Floats, crossing, ends, first_zero, middle
-from topheavy.proven.question import question
+from topheavy.proven.problem import problem_of
 from topheavy.proven.walls import proposed
 
 PRECISIONS = ((112, 1e-13), (144, 1e-20), (176, 1e-28))
 """Bits of the checker, and the largest size of the last terms of a step, rad."""
 
 BOX_ACCURACY = 1e-6
-"""Accuracy for a box of factors over its relative width, if that is coarser."""
+"""Accuracy for a box of factors, normalised by its relative width, if that is coarser."""
 
 NARROW_BOX = 1e-9
 """Relative width of a box of factors below which the search uses the second precision."""
@@ -70,9 +70,9 @@ def certified(
     Raises
     ------
     ValueError
-        As `question` does, and for dimensions outside the range of a certificate.
+        As `problem_of` does, and for dimensions outside the range of a certificate.
     """
-    problem = question(structure, pulse, factor)
+    problem = problem_of(structure, pulse, factor)
     low, high = map(float, problem["factor"])
     width = (high - low) / max(abs(low), abs(high)) if high > low else 0.0
     precisions = list(PRECISIONS)
@@ -104,7 +104,7 @@ class Search:
         try:
             self._follow()
             outcome = self.check.end()
-        except Refused:
+        except NotProven:
             if not self._bound():
                 return False
             outcome = self.check.end()
@@ -116,8 +116,8 @@ class Search:
         trial = copy(self.check)
         event = {"event": name} | event
         try:
-            trial.take(event)
-        except Refused as reason:
+            trial.verify_event(event)
+        except NotProven as reason:
             self.reason = str(reason)
             return False
         self.check = trial
@@ -125,7 +125,7 @@ class Search:
         return True
 
     def _follow(self) -> None:
-        """Follow the motion until it is decided, or raise `Refused`."""
+        """Follow the motion until it is decided, or raise `NotProven`."""
         if not self._uplift():
             return
         largest = ends(self.check.ground.largest)[1]
@@ -139,7 +139,7 @@ class Search:
         """Return whether the block uplifts, and take the event if it does."""
 
         def is_beyond(sigma: float) -> bool:
-            return abs(self.floats.wave(sigma, 1)[0]) > self.floats.level
+            return abs(self.floats.wave(sigma, 1)[0]) > self.floats.uplift_level
 
         stop = ends(self.check.ground.stop)[0]
         parts = N_GRID * self.certificate["pulse"]["half_periods"]
@@ -148,19 +148,19 @@ class Search:
             if is_beyond(sigma):
                 place = crossing(grid[k - 1], sigma, is_beyond) if k else 0.0
                 if not self._take("uplift", sigma=repr(place)):
-                    raise Refused(self.reason)
+                    raise NotProven(self.reason)
                 return True
         return False
 
     def _step(self) -> None:
-        """Take a step, or raise `Refused` where none is accepted."""
-        check, zeros = self.check, self.check.zeros
+        """Take a step, or raise `NotProven` where none is accepted."""
+        check, zero_order = self.check, self.check.zero_order
         c = self._series()
-        h = 2.0 * self.length if zeros == 0 else 8.0
+        h = 2.0 * self.length if zero_order == 0 else 8.0
         for k in (self.order, self.order - 1):
             if c[k]:
                 h = min(h, (self.accuracy / abs(c[k])) ** (1.0 / k))
-        if zeros == 1 and c[2] < 0.0:  # a bounce that ends soon
+        if zero_order == 1 and c[2] < 0.0:  # a bounce that ends soon
             h = min(h, -1.25 * ends(check.rate)[1] / c[2])
         low, left = ends(check.ground.stop - check.sigma)
         shortest = MIN_BOX_STEP * h if self.is_box else MIN_STEP
@@ -168,7 +168,7 @@ class Search:
             self.tries += 1
             is_last = low <= h
             length = left * (1.0 + 1e-12) if is_last else h
-            time = first_zero(c[zeros:], 1.02 * length)
+            time = first_zero(c[zero_order:], 1.02 * length)
             if time and is_last and time > left:
                 time = None
             if self._take("step", h=repr(length), last=is_last, impact=time and repr(time)):
@@ -182,16 +182,16 @@ class Search:
                 break
             else:
                 h = 0.5 * min(length, left)
-        raise Refused(self.reason or "too many steps")
+        raise NotProven(self.reason or "too many steps")
 
     def _series(self) -> list[float]:
         """Return the coefficients of φ in floats."""
         check = self.check
         push = [check.side * x for x in self.floats.wave(middle(check.sigma), self.order)]
         c = self.floats.series(middle(check.phi), middle(check.rate), push, self.order)
-        c[: check.zeros] = [0.0] * check.zeros
-        if not c[check.zeros] > 0.0:
-            raise Refused("it may not leave the ground")
+        c[: check.zero_order] = [0.0] * check.zero_order
+        if not c[check.zero_order] > 0.0:
+            raise NotProven("it may not leave the ground")
         return c
 
     def _undo_wide_impact(self, before: Check, *, is_impact: bool) -> None:
@@ -200,7 +200,7 @@ class Search:
         if self.is_box and is_impact and high - low > MAX_IMPACT_SPREAD + high_before - low_before:
             self.check = before
             self.certificate["events"].pop()
-            raise Refused("the impacts of the box are far apart")
+            raise NotProven("the impacts of the box are far apart")
 
     def _bound(self) -> bool:
         """Take walls up to the end of the pulse, and return whether they prove survival."""
@@ -218,5 +218,5 @@ class Search:
             h = min(WALL_STEP_GROWTH * h, MAX_WALL_STEP)
         try:
             return bool(self.check.end())
-        except Refused:
+        except NotProven:
             return False
