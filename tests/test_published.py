@@ -9,7 +9,7 @@ import pytest
 from documents.check import REFERENCE, findings, published
 from documents.compare import compare, departures
 from documents.expect import faults
-from replication.claims import unexpected
+from replication.verdicts import unexpected
 from tests.cases import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -12,7 +12,7 @@ import pytest
 from pydantic import ValidationError
 
 from replication import step
-from replication.claims import Claim, judged, read_claims, unexpected
+from replication.claims import Claim, read_claims, tolerance_fault
 from replication.config import (
     Degrees,
     Grid,
@@ -28,7 +28,7 @@ from replication.config import (
 )
 from replication.sections import Paper
 from replication.step import truth, value
-from replication.verdicts import decimals, tolerance_fault, verdict_on
+from replication.verdicts import decimals, judged, unexpected, verdict_on
 from tests.cases import ROOT
 
 STATEMENT = {"id": "s", "where": "p. 1", "statement": "It is so.", "expected": "confirmed"}
@@ -158,7 +158,11 @@ def test_brace_that_names_nothing_is_text(tmp_path):
         ("{scale}", "{scal}", "stands has {scal}, which is no key of the config; expected one of"),
         ("where", "were", "claim stands: 'where': Field required"),
         ("confirmed", "true", "claim stands: 'expected'"),
-        ("confirmed", "proven", "claim stands: expected is 'proven'; expected one of confirmed"),
+        (
+            "confirmed",
+            "proven",
+            "claim stands: 'expected': Input should be 'confirmed', 'qualified'",
+        ),
         ("  finding: good\n", "", "claim stands: a claim names a rule and a finding, unless"),
         ("- id", OTHER + "- id", "claim stands: the id is there twice"),
         (

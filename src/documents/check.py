@@ -9,8 +9,9 @@ import runpy
 from pathlib import Path
 from typing import Any
 
-from replication.claims import counts, judged, read_claims, unexpected
+from replication.claims import read_claims
 from replication.step import call
+from replication.verdicts import counts, judged, unexpected
 
 REFERENCE = Path("tests/reference")
 

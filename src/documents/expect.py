@@ -4,8 +4,8 @@ import csv
 import json
 from pathlib import Path
 
-from replication.claims import counts, unexpected
 from replication.step import log_to, publish, stop
+from replication.verdicts import counts, unexpected
 
 PLACES = (
     "article: paper/report.pdf, supplement: paper/supplement.pdf, every verdict: "

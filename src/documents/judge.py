@@ -5,8 +5,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from replication.claims import judged, read_claims, read_findings, unexpected
+from replication.claims import read_claims
 from replication.step import log_to, publish
+from replication.verdicts import judged, read_findings, unexpected
 
 
 def work(job: Any) -> None:

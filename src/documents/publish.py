@@ -10,10 +10,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from documents.check import findings
-from replication.claims import unexpected
 from replication.config import read_config
 from replication.sections import Paper
 from replication.step import findings_text
+from replication.verdicts import unexpected
 
 REFERENCE, DOCS = Path("tests/reference"), Path("docs")
 CLAIMS = Path("results/claims.json")

@@ -1,18 +1,19 @@
-"""Read claims, and judge each by its finding."""
+"""Read claims: the types of their keys, and what is said of a mistake."""
 
-import json
 import re
-from collections.abc import Iterable, Mapping
-from pathlib import Path
-from typing import Any
+from collections.abc import Mapping
+from decimal import Decimal
+from typing import Any, Literal
 
 from pydantic import StrictInt, ValidationError
 
 from replication.config import Number, Positive, Section, read_yaml
 from replication.numbers import inputs, without_marks
 
-TITLES = {"paper": "claims of the paper", "ours": "claims of our own"}
+Verdict = Literal["confirmed", "qualified", "refuted", "supported", "by definition", "not tested"]
 
+LARGEST_RELATIVE_TOLERANCE = 0.1
+"""A tolerance is at most this share of the printed value, or the rounding of its last digit."""
 
 BRACES = re.compile(r"\{\w+(?:\[[\w.]+\])*(?::[^{}]*)?\}")
 """A number of the config in a text; any other brace is text."""
@@ -29,7 +30,7 @@ class Entry(Section):
     tolerance: Positive | None = None
     rule: str = ""
     finding: str = ""
-    expected: str
+    expected: Verdict
     differs: str = ""
     remark: str = ""
 
@@ -56,8 +57,6 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
         When a claim has an unknown key, lacks one, or has the id of another; when its statement
         names a key that the config lacks; when its tolerance is too wide, or its verdict unknown.
     """
-    from replication.verdicts import VERDICTS, tolerance_fault
-
     content = read_yaml(path)
     known = inputs(settings)
     claims: list[Claim] = []
@@ -88,8 +87,6 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
             fault = tolerance_fault(claim)
             if claim.id in [each.id for each in claims]:
                 fault = "the id is there twice"
-            if claim.expected not in VERDICTS:
-                fault = f"expected is {claim.expected!r}; expected one of {', '.join(VERDICTS)}"
             is_judged = claim.expected not in ("by definition", "not tested")
             if bool(claim.rule and claim.finding) != is_judged:
                 fault = (
@@ -101,71 +98,30 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
     return claims
 
 
-def judged(claim: Claim, findings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """Return a claim with what was computed for it, its verdict, and whether our copy differs.
+def print_rounding(printed: float) -> float:
+    """Return half a unit of the last digit of a printed number: 0.0005 of 0.275, 0.5 of 5.
 
-    Raises
-    ------
-    SystemExit
-        When the rule makes no such finding, or the finding cannot judge the claim.
+    A trailing zero is not kept by YAML: 0.50 counts as 0.5.
     """
-    from replication.verdicts import decimals, verdict_on
-
-    finding = None
-    if claim.finding:
-        if claim.finding not in findings.get(claim.rule, {}):
-            known = ", ".join(findings.get(claim.rule, {})) or "none: no such rule"
-            raise SystemExit(
-                f"{claim.file}: claim {claim.id} names the finding '{claim.finding}' of rule "
-                f"{claim.rule}, which has {known}. Name one of these, or return it from findings() "
-                "of the script of the rule"
-            )
-        finding = findings[claim.rule][claim.finding]
-    try:
-        verdict, differs = verdict_on(claim, finding)
-    except ValueError as fault:
-        raise SystemExit(f"{claim.file}: {fault}") from None
-    row = claim.model_dump() | {
-        "verdict": verdict,
-        "differs": differs,
-        "expected_differs": claim.differs,
-        "computed": None,
-        "shown": "",
-    }
-    if finding is not None:
-        row["condition"] = finding.get("condition", "")
-        row["computed"] = finding.get("value", finding.get("holds"))
-        if "value" in finding:
-            number = decimals(finding["value"], finding["error"], claim.printed, claim.tolerance)
-            row["shown"] = f"{number} {claim.unit or finding['unit']}".strip()
-    return row
+    exponent = Decimal(repr(printed)).normalize().as_tuple().exponent
+    return 0.5 * 10.0 ** min(int(exponent), 0)
 
 
-def read_findings(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
-    """Return the findings of several rules; a file has the name of its rule."""
-    return {Path(path).stem: json.loads(Path(path).read_text("utf-8")) for path in paths}
+def tolerance_fault(claim: Claim) -> str:
+    """Return why the tolerance of a claim is too wide for its verdict to mean anything, or "".
 
-
-def counts(rows: Iterable[Mapping[str, Any]]) -> list[str]:
-    """Return a line for each list of claims: how many have each verdict."""
-    from replication.verdicts import counted
-
-    lists: dict[str, list] = {}
-    for row in rows:
-        lists.setdefault(row["part"], []).append(row)
-    return [f"{TITLES[part]}: {counted(members)}" for part, members in lists.items()]
-
-
-def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:
-    """Return a line for each claim whose verdict, or flag, is not the expected one."""
-    return [
-        f"{row['file']}: verdict of {row['id']} is {_verdict(row, 'verdict', 'differs')}, expected "
-        f"{_verdict(row, 'expected', 'expected_differs')} (computed: "
-        f"{row['shown'] or row['computed']}): set `expected`, or look for the cause"
-        for row in rows
-        if row["verdict"] != row["expected"] or row["differs"] != row["expected_differs"]
-    ]
-
-
-def _verdict(row: Mapping[str, Any], verdict: str, differs: str) -> str:
-    return row[verdict] + (f" (our copy differs: {row[differs]})" if row.get(differs) else "")
+    A value that is off by a whole unit of the last printed digit, twice what rounding allows, has
+    to fail.
+    """
+    if claim.tolerance is None:
+        return ""
+    printed, tolerance = claim.printed, claim.tolerance
+    if not isinstance(printed, int | float):
+        return f"printed is {printed!r}; expected a number, since there is a tolerance"
+    rounding = print_rounding(printed)
+    widest = max(LARGEST_RELATIVE_TOLERANCE * abs(printed), rounding)
+    if tolerance > widest:
+        return f"tolerance is {tolerance:g}; expected at most {widest:g}, a tenth of {printed:g}"
+    if tolerance >= 2.0 * rounding:
+        return f"tolerance is {tolerance:g}; expected less than {2.0 * rounding:g}"
+    return ""

@@ -1,24 +1,22 @@
 """Compute the verdict on a claim from its finding. Nobody confirms a claim by hand."""
 
+import json
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
-from typing import Any, Literal, get_args
+from pathlib import Path
+from typing import Any, get_args
 
-from replication.claims import Claim
+from replication.claims import Claim, Verdict
 
-Verdict = Literal["confirmed", "qualified", "refuted", "supported", "by definition", "not tested"]
-VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
+TITLES = {"paper": "claims of the paper", "ours": "claims of our own"}
 
 COPY_DIFFERS = ("sign", "number", "letter", "bracket", "radical")
 """Kinds of discrepancy by which our copy can contradict the paper's own premises."""
 
 LARGEST_SHARE_OF_TOLERANCE = 0.1
 """The error of a computed value may take this share of the claim's tolerance."""
-
-LARGEST_RELATIVE_TOLERANCE = 0.1
-"""A tolerance is at most this share of the printed value, or the rounding of its last digit."""
 
 
 def verdict_on(claim: Claim, finding: Mapping[str, Any] | None) -> tuple[str, str]:
@@ -83,38 +81,75 @@ def counted(rows: Sequence[Mapping[str, Any]]) -> str:
     return ", ".join(
         f"{count[verdict]} {verdict}"
         + (f" ({mended} in a mended form)" if verdict == "confirmed" and mended else "")
-        for verdict in VERDICTS
+        for verdict in get_args(Verdict)
         if count[verdict]
     )
 
 
-def print_rounding(printed: float) -> float:
-    """Return half a unit of the last digit of a printed number: 0.0005 of 0.275, 0.5 of 5.
+def judged(claim: Claim, findings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Return a claim with what was computed for it, its verdict, and whether our copy differs.
 
-    A trailing zero is not kept by YAML: 0.50 counts as 0.5.
+    Raises
+    ------
+    SystemExit
+        When the rule makes no such finding, or the finding cannot judge the claim.
     """
-    exponent = Decimal(repr(printed)).normalize().as_tuple().exponent
-    return 0.5 * 10.0 ** min(int(exponent), 0)
+    finding = None
+    if claim.finding:
+        if claim.finding not in findings.get(claim.rule, {}):
+            known = ", ".join(findings.get(claim.rule, {})) or "none: no such rule"
+            raise SystemExit(
+                f"{claim.file}: claim {claim.id} names the finding '{claim.finding}' of rule "
+                f"{claim.rule}, which has {known}. Name one of these, or return it from findings() "
+                "of the script of the rule"
+            )
+        finding = findings[claim.rule][claim.finding]
+    try:
+        verdict, differs = verdict_on(claim, finding)
+    except ValueError as fault:
+        raise SystemExit(f"{claim.file}: {fault}") from None
+    row = claim.model_dump() | {
+        "verdict": verdict,
+        "differs": differs,
+        "expected_differs": claim.differs,
+        "computed": None,
+        "shown": "",
+    }
+    if finding is not None:
+        row["condition"] = finding.get("condition", "")
+        row["computed"] = finding.get("value", finding.get("holds"))
+        if "value" in finding:
+            number = decimals(finding["value"], finding["error"], claim.printed, claim.tolerance)
+            row["shown"] = f"{number} {claim.unit or finding['unit']}".strip()
+    return row
 
 
-def tolerance_fault(claim: Claim) -> str:
-    """Return why the tolerance of a claim is too wide for its verdict to mean anything, or "".
+def read_findings(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
+    """Return the findings of several rules; a file has the name of its rule."""
+    return {Path(path).stem: json.loads(Path(path).read_text("utf-8")) for path in paths}
 
-    A value that is off by a whole unit of the last printed digit, twice what rounding allows, has
-    to fail.
-    """
-    if claim.tolerance is None:
-        return ""
-    printed, tolerance = claim.printed, claim.tolerance
-    if not isinstance(printed, int | float):
-        return f"printed is {printed!r}; expected a number, since there is a tolerance"
-    rounding = print_rounding(printed)
-    widest = max(LARGEST_RELATIVE_TOLERANCE * abs(printed), rounding)
-    if tolerance > widest:
-        return f"tolerance is {tolerance:g}; expected at most {widest:g}, a tenth of {printed:g}"
-    if tolerance >= 2.0 * rounding:
-        return f"tolerance is {tolerance:g}; expected less than {2.0 * rounding:g}"
-    return ""
+
+def counts(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return a line for each list of claims: how many have each verdict."""
+    lists: dict[str, list] = {}
+    for row in rows:
+        lists.setdefault(row["part"], []).append(row)
+    return [f"{TITLES[part]}: {counted(members)}" for part, members in lists.items()]
+
+
+def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return a line for each claim whose verdict, or flag, is not the expected one."""
+    return [
+        f"{row['file']}: verdict of {row['id']} is {_verdict(row, 'verdict', 'differs')}, expected "
+        f"{_verdict(row, 'expected', 'expected_differs')} (computed: "
+        f"{row['shown'] or row['computed']}): set `expected`, or look for the cause"
+        for row in rows
+        if row["verdict"] != row["expected"] or row["differs"] != row["expected_differs"]
+    ]
+
+
+def _verdict(row: Mapping[str, Any], verdict: str, differs: str) -> str:
+    return row[verdict] + (f" (our copy differs: {row[differs]})" if row.get(differs) else "")
 
 
 # The digits of a number in print ------------------------------------------------------------------

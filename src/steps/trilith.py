@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pandas as pd
 
+from replication.claims import print_rounding
 from replication.step import check, grid, run, truth, value
-from replication.verdicts import print_rounding
 from steps.shared import plain
 from topheavy import Column, Pulse, RockingFrame, simulate
 from topheavy.bodies.structures import STANDARD_GRAVITY
