@@ -176,6 +176,21 @@ def whole(name: str, value: Any, least: int) -> int:
     return int(value)
 
 
+def truth(name: str, value: Any) -> bool:
+    """Return `value`, True or False of Python or NumPy, as a bool, or raise ValueError."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name} is {short_repr(value)}; expected True or False")
+    return bool(value)
+
+
+def truths(name: str, values: ArrayLike) -> NDArray[np.bool_]:
+    """Return a copy of `values` as an array of True and False, or raise ValueError."""
+    array = np.asanyarray(values)
+    if array.dtype != bool or np.ma.is_masked(array):
+        raise ValueError(f"{name} is {short_repr(values)}; expected True or False in each place")
+    return np.array(array)
+
+
 def set_fields(instance: Any, **values: float) -> None:
     """Set fields of a frozen dataclass to checked values, as floats of Python for the kernel."""
     for name, value in values.items():

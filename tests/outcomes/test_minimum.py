@@ -1,6 +1,7 @@
 """The lowest factor that overturns: nested grids, no factor passed over, and words that say so."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -202,24 +203,58 @@ def test_capacity_is_the_first_window_with_enough_that_overturn():
 
 
 def test_capacity_under_a_record_is_that_of_its_outcomes():
-    factors = np.linspace(0.5, 5.0, 2000)
-    capacity = th.capacity(PIER, EL_CENTRO, factors)
-    np.testing.assert_array_equal(capacity.overturned, th.overturned_by(PIER, EL_CENTRO, factors))
-    inside = (factors >= capacity.factor) & (factors <= 1.05 * capacity.factor)
-    assert capacity.overturned[inside].mean() >= 0.88
-    low, high = capacity.range
-    assert low <= capacity.factor <= high
-    assert capacity.acceleration == capacity.factor * EL_CENTRO.peak_acceleration
-    assert str(capacity).startswith(f"A factor of {capacity.factor:.3g} (")
+    chosen = th.capacity(PIER, EL_CENTRO)
+    factors = chosen.factors
+    assert factors[0] == pytest.approx(PIER.uplift_acceleration / EL_CENTRO.peak_acceleration)
+    np.testing.assert_array_equal(chosen.overturned, th.overturned_by(PIER, EL_CENTRO, factors))
+    for capacity in (chosen, th.capacity(PIER, EL_CENTRO, np.geomspace(0.5, 8.0, 3000))):
+        inside = (capacity.factors >= capacity.factor) & (
+            capacity.factors <= 1.05 * capacity.factor
+        )
+        assert capacity.overturned[inside].mean() >= 0.88
+        low, high = capacity.range
+        assert low <= capacity.factor <= high
+        assert capacity.factor == pytest.approx(chosen.factor, rel=0.01)
+        assert capacity.acceleration == capacity.factor * EL_CENTRO.peak_acceleration
+        assert str(capacity).startswith(f"A factor of {capacity.factor:.3g} (")
+
+
+@pytest.mark.parametrize("scale_vertical", [True, False])
+def test_capacity_chooses_factors_that_keep_contact(scale_vertical):
+    up = th.Record(EL_CENTRO.time_step, 0.5 * EL_CENTRO.acceleration)
+    options = {"vertical": up, "scale_vertical": scale_vertical}
+    capacity = th.capacity(th.Column(2.0, 4.0), EL_CENTRO, **options)
+    contact = -1.0 / up.acceleration.min()
+    assert (capacity.factors[-1] < contact) == scale_vertical
+    assert capacity.factors[0] < 0.2 * math.tan(0.46) / EL_CENTRO.peak_acceleration
+    assert math.isnan(capacity.factor) == scale_vertical
+    assert str(capacity).startswith("No capacity") == scale_vertical
 
 
 def test_capacity_is_nan_where_no_window_of_the_grid_has_enough():
-    factors = np.linspace(1.0, 2.0, 101)
+    factors = np.geomspace(1.0, 2.0, 301)
     capacity = th.Capacity(factors, factors > 1.8)
     assert capacity.factor == pytest.approx(1.8, abs=0.011)
+    assert "; 1.79 to more than 2 over" in str(capacity)
     assert math.isnan(capacity.over(0.2))
     assert math.isnan(capacity.range[1])
-    assert math.isnan(th.Capacity(factors, factors > 3.0).range[0])
+    capacity = th.Capacity(factors, factors > 1.93)
+    assert math.isnan(capacity.factor)
+    assert str(capacity) == (
+        "No capacity from a factor of 1 to 2: in no window of 5 % do 90 % of the factors overturn; "
+        "16 of 301 factors overturn."
+    )
+
+
+@pytest.mark.parametrize("factors", [[1.0, 2.0, 3.0], np.linspace(0.1, 5.0, 50)])
+def test_grid_that_is_too_coarse_is_refused_with_one_that_is_not(factors):
+    with pytest.raises(ValueError, match=r"steps of up to .*at most 0\.25% .* np\.geo") as error:
+        th.capacity(PIER, EL_CENTRO, factors)
+    first, last, size = re.findall(r"geomspace\((.*), (.*), (\d+)\)", str(error.value))[0]
+    th.Capacity(np.geomspace(float(first), float(last), int(size)), np.zeros(int(size), bool))
+    coarser = int(size) - 1
+    with pytest.raises(ValueError, match="steps of up to"):
+        th.Capacity(np.geomspace(float(first), float(last), coarser), np.zeros(coarser, bool))
 
 
 @pytest.mark.parametrize(
@@ -228,10 +263,16 @@ def test_capacity_is_nan_where_no_window_of_the_grid_has_enough():
         ({"factors": [1.0, 1.0]}, "factors do not increase"),
         ({"factors": [0.0, 1.0]}, "factors goes down to 0"),
         ({"overturned": [True]}, r"overturned has shape \(1,\); expected \(2,\)"),
+        (
+            {"overturned": np.ma.masked_array([True, False], [0, 1])},
+            "overturned is [^;]*; expected T",
+        ),
         ({"window": 0.0}, "window is 0; expected more than zero"),
+        ({"window": 1.5}, "window is 1.5; expected a value from 0 to 1"),
         ({"share": 1.1}, "share is 1.1; expected a value from 0 to 1"),
+        ({"unit_acceleration": "1"}, "unit_acceleration is '1'; expected a number"),
     ],
 )
 def test_bad_capacity_is_refused_by_name_and_value(changes, says):
     with pytest.raises(ValueError, match=says):
-        th.Capacity(**({"factors": [1.0, 2.0], "overturned": [False, True]} | changes))
+        th.Capacity(**({"factors": [1.0, 1.001], "overturned": [False, True]} | changes))

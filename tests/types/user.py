@@ -88,7 +88,8 @@ assert_type(quarter_period(pier, 0.01), float)
 
 print(free.to_frame().shape)
 
-strength = capacity(pier, measured, np.linspace(0.5, 5.0, 400))
+strength = capacity(pier, measured)
+assert_type(capacity(bent, measured, np.geomspace(0.5, 5.0, 1000)), Capacity)
 assert_type(strength, Capacity)
 print(strength, strength.range, strength.over(0.1))
 minima = overturning_spectrum(bent, "one-sine", [1.0, 2.0])
