@@ -13,20 +13,19 @@ from pydantic import ValidationError
 
 from replication import step
 from replication.claims import Claim, read_claims, tolerance_fault
-from replication.config import (
+from replication.config import read_config, read_yaml
+from replication.sections import (
     Degrees,
     Grid,
     Items,
     MassRatio,
+    Paper,
     Positive,
     Range,
     Section,
     Shape,
     StructureName,
-    read_config,
-    read_yaml,
 )
-from replication.sections import Paper
 from replication.step import truth, value
 from replication.verdicts import decimals, judged, unexpected, verdict_on
 from tests.cases import ROOT
@@ -286,6 +285,7 @@ def test_config_with_its_keys_is_read(tmp_path):
         ("scale", "sacle", "unknown key 'sacle'; did you mean 'scale'?"),
         ("shape: ", "sahpe: ", "unknown key 'inner.sahpe'; did you mean 'shape'?"),
         ("scale: 1.3\n", "", "the key 'scale' is missing"),
+        ("{temple: 1.0}", "3", "structures is 3; input should be a valid dictionary"),
         ("1.3", "'1.3'", "scale is '1.3'; input should be a valid number: without quotes"),
         ("1.3", "1,3", "scale is '1,3'; input should be a valid number: a decimal point"),
         (

@@ -2,13 +2,13 @@
 
 import re
 from collections.abc import Mapping
-from decimal import Decimal
 from typing import Any, Literal
 
 from pydantic import StrictInt, ValidationError
 
-from replication.config import Number, Positive, Section, read_yaml
-from replication.numbers import inputs, without_marks
+from replication.config import read_yaml
+from replication.numbers import inputs, print_rounding, without_marks
+from replication.sections import Number, Positive, Section
 
 Verdict = Literal["confirmed", "qualified", "refuted", "supported", "by definition", "not tested"]
 
@@ -96,15 +96,6 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
                 raise SystemExit(f"{path}: claim {claim.id}: {fault}")
             claims.append(claim)
     return claims
-
-
-def print_rounding(printed: float) -> float:
-    """Return half a unit of the last digit of a printed number: 0.0005 of 0.275, 0.5 of 5.
-
-    A trailing zero is not kept by YAML: 0.50 counts as 0.5.
-    """
-    exponent = Decimal(repr(printed)).normalize().as_tuple().exponent
-    return 0.5 * 10.0 ** min(int(exponent), 0)
 
 
 def tolerance_fault(claim: Claim) -> str:

@@ -1,96 +1,12 @@
-"""Read YAML and configs: types of their keys, and what is said of a mistake."""
+"""Read YAML and configs, and say what is wrong with a mistake."""
 
 import re
 from difflib import get_close_matches
-from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Any
 
 import yaml
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    Field,
-    ValidationError,
-    ValidationInfo,
-    create_model,
-    model_validator,
-)
-
-Entry = TypeVar("Entry")
-
-
-def _rising(numbers: list) -> list:
-    if any(high <= low for low, high in pairwise(numbers)):
-        raise ValueError("expected numbers that rise")
-    return numbers
-
-
-def _structure(name: str, about: ValidationInfo) -> str:
-    if name not in (names := [*map(str, about.context or ())]):
-        raise ValueError(f"expected a name of `structures`: {', '.join(names)}")
-    return name
-
-
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0, strict=True, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, strict=True, allow_inf_nan=False)]
-MassRatio = Annotated[float, Field(ge=0, strict=True)]  # γ; .inf is a frame with γ → ∞
-Fraction = Annotated[float, Field(gt=0, le=1, strict=True)]
-Tolerance = Annotated[float, Field(gt=0, le=0.01, strict=True)]
-Duration = Annotated[float, Field(gt=0, le=1000, strict=True)]  # s
-Count = Annotated[int, Field(ge=1, le=10_000, strict=True)]
-Seed = Annotated[int, Field(ge=0, strict=True)]
-Degrees = Annotated[float, Field(ge=1, le=60, strict=True)]  # at least 1: no radians
-Shape = Literal[
-    "one-sine", "one-cosine", "half-sine", "constant", "ricker-symmetric", "ricker-antisymmetric"
-]
-StructureName = Annotated[str, AfterValidator(_structure)]
-Items = Annotated[list[Entry], Field(min_length=1)]
-Pair = Annotated[list[Positive], Field(min_length=2, max_length=2)]
-Range = Annotated[list[Entry], Field(min_length=2, max_length=2), AfterValidator(_rising)]
-
-
-class Section(BaseModel):
-    """A part of a config: a key that is not named in its model is an error."""
-
-    model_config = ConfigDict(extra="forbid")
-
-
-def section(base: type[Section] = Section, /, **types: Any) -> Any:
-    """Return the model of a section from the types of its entries."""
-    return create_model("Section", __base__=base, **{name: (of, ...) for name, of in types.items()})
-
-
-class Span(Section):
-    """A range."""
-
-    lowest: Positive
-    highest: Positive
-
-    @model_validator(mode="after")
-    def ordered(self) -> "Span":
-        if self.highest <= self.lowest:
-            raise ValueError(
-                f"highest is {self.highest:g}; expected more than lowest, {self.lowest:g}"
-            )
-        return self
-
-
-class Grid(Span):
-    """A range with so many points."""
-
-    points: Annotated[int, Field(ge=2, le=1000, strict=True)]
-
-
-class PulseOf(Section):
-    """A pulse: acceleration amplitude in g, period 2π/ω in s."""
-
-    shape: Shape
-    amplitude: Positive
-    period: Positive
-
+from pydantic import BaseModel, ValidationError
 
 VERTICAL = re.compile(
     r"([-_. ](UP|DN|DOWN|DWN|UD|V|VRT|VER|VERT|Z)|[BEHS][HLN]Z)\.(AT2|CSV)$", re.IGNORECASE
@@ -129,10 +45,11 @@ def read_yaml(path: str | Path) -> Any:
         raise SystemExit(f"{path}: {' '.join(str(error).split())}") from None
 
 
-def read_config(path: str, model: type[Section], content: Any = None) -> dict[str, Any]:
+def read_config(path: str, model: type[BaseModel], content: Any = None) -> dict[str, Any]:
     """Return a checked config; a mistake ends the program with file, key, value and expectation."""
     content = read_yaml(path) if content is None else content
     names = content.get("structures") if isinstance(content, dict) else ()
+    names = names if isinstance(names, dict) else ()
     try:
         return model.model_validate(content, context=names).model_dump()
     except ValidationError as errors:
@@ -141,7 +58,7 @@ def read_config(path: str, model: type[Section], content: Any = None) -> dict[st
         ) from None
 
 
-def _message(error: Any, model: type[Section]) -> str:
+def _message(error: Any, model: type[BaseModel]) -> str:
     key = ".".join(str(part) for part in error["loc"])
     if error["type"] == "extra_forbidden":
         near = get_close_matches(str(error["loc"][-1]), names_of(model), n=1)

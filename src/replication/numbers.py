@@ -8,6 +8,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from decimal import Decimal
 from functools import reduce
 from html.parser import HTMLParser
 from operator import getitem
@@ -103,6 +104,15 @@ def inputs(settings: Mapping[str, Any]) -> dict[str, Any]:
 def without_marks(text: str) -> str:
     """Return a text without the marks of its numbers."""
     return re.sub(r"⟨[^|⟩]*\|([^⟩]*)⟩", r"\1", text)
+
+
+def print_rounding(printed: float) -> float:
+    """Return half a unit of the last digit of a printed number: 0.0005 of 0.275, 0.5 of 5.
+
+    A trailing zero is not kept by YAML: 0.50 counts as 0.5.
+    """
+    exponent = Decimal(repr(printed)).normalize().as_tuple().exponent
+    return 0.5 * 10.0 ** min(int(exponent), 0)
 
 
 # Numbers of a document ----------------------------------------------------------------------------

@@ -1,40 +1,128 @@
 """What config/config.yaml may say: the types of its entries, in its order; it has their units."""
 
-from typing import Any, Literal
+from itertools import pairwise
+from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import model_validator
-
-from replication.config import (
-    Count,
-    Degrees,
-    Duration,
-    Fraction,
-    Grid,
-    Items,
-    MassRatio,
-    NotNegative,
-    Number,
-    Pair,
-    Positive,
-    PulseOf,
-    Range,
-    Section,
-    Seed,
-    Shape,
-    Span,
-    StructureName,
-    Tolerance,
-    section,
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationInfo,
+    create_model,
+    model_validator,
 )
 
+Entry = TypeVar("Entry")
+
+
+def _rising(numbers: list) -> list:
+    if any(high <= low for low, high in pairwise(numbers)):
+        raise ValueError("expected numbers that rise")
+    return numbers
+
+
+def _structure(name: str, about: ValidationInfo) -> str:
+    if name not in (names := [*map(str, about.context or ())]):
+        raise ValueError(f"expected a name of `structures`: {', '.join(names)}")
+    return name
+
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, strict=True, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, strict=True, allow_inf_nan=False)]
+MassRatio = Annotated[float, Field(ge=0, strict=True)]  # γ; .inf is a frame with γ → ∞
+Fraction = Annotated[float, Field(gt=0, le=1, strict=True)]
+Tolerance = Annotated[float, Field(gt=0, le=0.01, strict=True)]
+Duration = Annotated[float, Field(gt=0, le=1000, strict=True)]  # s
+Count = Annotated[int, Field(ge=1, le=10_000, strict=True)]
+Seed = Annotated[int, Field(ge=0, strict=True)]
+Degrees = Annotated[float, Field(ge=1, le=60, strict=True)]  # at least 1: no radians
+Shape = Literal[
+    "one-sine", "one-cosine", "half-sine", "constant", "ricker-symmetric", "ricker-antisymmetric"
+]
+StructureName = Annotated[str, AfterValidator(_structure)]
+Items = Annotated[list[Entry], Field(min_length=1)]
+Pair = Annotated[list[Positive], Field(min_length=2, max_length=2)]
+Range = Annotated[list[Entry], Field(min_length=2, max_length=2), AfterValidator(_rising)]
+
+
+class Section(BaseModel):
+    """A part of a config: a key that is not named in its model is an error."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class Span(Section):
+    """A range."""
+
+    lowest: Positive
+    highest: Positive
+
+    @model_validator(mode="after")
+    def ordered(self) -> "Span":
+        if self.highest <= self.lowest:
+            raise ValueError(
+                f"highest is {self.highest:g}; expected more than lowest, {self.lowest:g}"
+            )
+        return self
+
+
+class Grid(Span):
+    """A range with so many points."""
+
+    points: Annotated[int, Field(ge=2, le=1000, strict=True)]
+
+
+class PulseOf(Section):
+    """A pulse: acceleration amplitude in g, period 2π/ω in s."""
+
+    shape: Shape
+    amplitude: Positive
+    period: Positive
+
+
+def section(shared: str = "", /, base: type[Section] = Section, **types: Any) -> Any:
+    """Return the model of a section: the names of its `SHARED` entries, and the types of others."""
+    entries = {name: SHARED[name] for name in shared.split()} | types
+    return create_model(
+        "Section", __base__=base, **{name: (of, ...) for name, of in entries.items()}
+    )
+
+
+SHARED = {
+    "amplitudes": Grid,
+    "depths": Items[Positive],
+    "duration": Duration,
+    "frequency_ratio": Positive,
+    "frequency_ratios": Grid,
+    "friction": Positive,
+    "highest": Positive,
+    "mass_ratio": MassRatio,
+    "mass_ratios": Items[MassRatio],
+    "period": Positive,
+    "points": Count,
+    "resolution": Fraction,
+    "sample": Count,
+    "samples": Count,
+    "seed": Seed,
+    "shape": Shape,
+    "shapes": Items[Shape],
+    "shards": Count,
+    "slendernesses": Items[Degrees],
+    "structure": StructureName,
+    "time_step": Positive,
+    "velocities": Items[Positive],
+}
+"""Entries with the same type in every section that names them by its first argument."""
+
 Cap = section(width=Positive, depth=Positive)
-CapBeam = section(span=Positive, depth=Positive)
-Column = section(half_width=Positive, half_height=Positive)
-PulseRatio = section(shape=Shape, frequency_ratio=Positive)
-Contact = section(time_constant=Positive, damping_ratio=Positive)
-Bootstrap = section(resamples=Count, confidence=Fraction, seed=Seed)
-Checks = Items[dict[Literal["time_step", "friction"], Positive]]
-Frames = dict[StructureName, Items[MassRatio]]
+SHARED["cap"] = CapBeam = section(span=Positive, depth=Positive)
+SHARED["column"] = Column = section(half_width=Positive, half_height=Positive)
+PulseRatio = section("shape frequency_ratio")
+SHARED["bootstrap"] = section("seed", resamples=Count, confidence=Fraction)
+SHARED["checks"] = Items[dict[Literal["time_step", "friction"], Positive]]
+SHARED["frames"] = dict[StructureName, Items[MassRatio]]
 
 
 class Consistent(Section):
@@ -62,23 +150,20 @@ class Consistent(Section):
 
 
 Paper = section(
-    Consistent,
+    base=Consistent,
     structures=dict[str, Column],
     solver=section(tightened=Tolerance),
     reproducibility=section(relative=Tolerance, absolute=Tolerance, counts=Count),
     parameters=section(
+        "mass_ratios points shape period",
         largest=Positive,
-        points=Count,
         largest_slenderness=Degrees,
         slendernesses=Count,
-        mass_ratios=Items[MassRatio],
         frames=Items[Positive],
         rotations=Count,
-        shape=Shape,
-        period=Positive,
     ),
     trilith=section(
-        mass_ratio=MassRatio,
+        "mass_ratio duration amplitudes",
         printed=section(
             width=Positive,
             height=Positive,
@@ -88,43 +173,27 @@ Paper = section(
         ),
         table_amplitude=Positive,
         table_frequency=Positive,
-        duration=Duration,
         cycles=Count,
         frequencies=Grid,
-        amplitudes=Grid,
     ),
     allen=section(
-        mass_ratio=MassRatio,
+        "mass_ratio",
         pulse=PulseOf,
         factor=Positive,
         errors=section(
-            pulses=Items[PulseRatio],
-            mass_ratios=Items[Positive],
-            slendernesses=Items[Degrees],
-            amplitudes=Grid,
+            "slendernesses amplitudes", pulses=Items[PulseRatio], mass_ratios=Items[Positive]
         ),
-        maps=section(
-            shape=Shape,
-            slenderness=Degrees,
-            mass_ratio=MassRatio,
-            frequency_ratios=Grid,
-            amplitudes=Grid,
-        ),
+        maps=section("shape mass_ratio frequency_ratios amplitudes", slenderness=Degrees),
     ),
     statements=section(
-        cap=CapBeam,
+        "cap duration samples",
         mass_ratios=Items[Positive],
-        pulses=Items[section(shape=Shape, frequency_ratio=Positive, amplitude=Positive)],
-        duration=Duration,
-        samples=Count,
+        pulses=Items[section("shape frequency_ratio", amplitude=Positive)],
     ),
     verification=section(
-        seed=Seed,
-        cells=Count,
+        "seed sample shapes mass_ratios",
         near=Fraction,
-        shapes=Items[Shape],
         slendernesses=Range[Degrees],
-        mass_ratios=Items[MassRatio],
         frequency_ratios=Range[Positive],
         amplitudes=Range[Positive],
         published=Items[
@@ -139,57 +208,29 @@ Paper = section(
         ],
     ),
     spectra=section(
-        shards=Count,
-        slendernesses=Items[Degrees],
-        shapes=Items[Shape],
-        mass_ratios=Items[MassRatio],
-        frequency_ratios=Grid,
-        amplitudes=section(Span, resolution=Fraction),
-        finer=section(below=Positive, resolution=Fraction),
+        "shards slendernesses shapes mass_ratios frequency_ratios",
+        amplitudes=section("resolution", Span),
+        finer=section("resolution", below=Positive),
         collapse=section(slow=Positive, covered=Fraction),
-        cycles=section(
-            numbers=Items[Count],
-            frequency_ratios=Grid,
-            highest=Positive,
-            resolution=Fraction,
-            wide=Fraction,
-        ),
-        sample=section(points=Count, seed=Seed),
+        cycles=section("frequency_ratios highest resolution", numbers=Items[Count], wide=Fraction),
+        sample=section("points seed"),
     ),
     vase=section(
-        mass_ratios=Items[MassRatio],
-        shapes=Items[Shape],
-        period=Positive,
-        grids=Items[
-            section(shapes=Items[Shape], mass_ratios=Items[MassRatio], frequency_ratios=Grid)
-        ],
+        "mass_ratios shapes period highest sample",
+        grids=Items[section("shapes mass_ratios frequency_ratios")],
         longest=Positive,
-        highest=Positive,
         floor=Fraction,
         wide=Fraction,
-        sample=Count,
         portal=CapBeam,
-        picture=section(mass_ratio=MassRatio, amplitudes=Items[Positive], cap=Cap),
+        picture=section("mass_ratio", amplitudes=Items[Positive], cap=Cap),
     ),
     uplift=section(
-        cap=CapBeam,
-        mass_ratios=Items[MassRatio],
-        shapes=Items[Shape],
-        frequency_ratios=Grid,
-        amplitudes=Items[Positive],
-        points=Count,
-        sample=Count,
+        "cap mass_ratios shapes frequency_ratios points sample", amplitudes=Items[Positive]
     ),
-    animation=section(
-        mass_ratio=MassRatio, cap=Cap, pulse=PulseOf, duration=Duration, frames_per_second=Count
-    ),
+    animation=section("mass_ratio duration", cap=Cap, pulse=PulseOf, frames_per_second=Count),
     motions=section(
-        shards=Count,
+        "shards mass_ratios structure mass_ratio seed bootstrap sample",
         structures=Items[StructureName],
-        mass_ratios=Items[MassRatio],
-        structure=StructureName,
-        mass_ratio=MassRatio,
-        seed=Seed,
         motions=Count,
         fewer=Count,
         scenarios=Items[
@@ -199,101 +240,74 @@ Paper = section(
         ],
         velocity=Positive,
         changes=Items[Fraction],
-        rotations=section(motions=Count, velocities=Items[Positive]),
+        rotations=section("velocities", motions=Count),
         intensities=Grid,
         largest_factor=Positive,
-        noise=section(soils=Items[Positive], corners=Items[Positive], motions=Count, seed=Seed),
+        noise=section("seed", soils=Items[Positive], corners=Items[Positive], motions=Count),
         vertical=section(share=Positive),
-        bootstrap=Bootstrap,
-        checked=Count,
     ),
     break_even=section(
-        velocities=Items[Positive],
+        "velocities bootstrap sample",
         reductions=section(highest=Fraction, step=Fraction),
         lowered=Items[Fraction],
         measured=Range[Fraction],
         contact=Fraction,
-        bootstrap=Bootstrap,
-        checked=Count,
     ),
     records=section(
-        mass_ratios=Items[MassRatio],
-        slendernesses=Items[Degrees],
+        "mass_ratios slendernesses sample",
         sizes=Grid,
         factors=Grid,
-        checked=Count,
         capacity=section(
-            structure=StructureName,
-            mass_ratios=Items[MassRatio],
-            highest=Positive,
-            step=Fraction,
-            windows=Items[Fraction],
-            share=Fraction,
+            "structure mass_ratios highest", step=Fraction, windows=Items[Fraction], share=Fraction
         ),
     ),
     friction=section(
-        structure=StructureName,
+        "structure shapes frequency_ratios amplitudes samples",
         mass_ratios=Items[Positive],
         bays=Items[Positive],
         depth=Positive,
         sufficient=Positive,
-        shapes=Items[Shape],
-        frequency_ratios=Grid,
-        amplitudes=Grid,
-        samples=Count,
         check_samples=Count,
     ),
-    designers=section(
-        structure=StructureName, mass_ratios=Items[MassRatio], velocities=Items[Positive]
-    ),
+    designers=section("structure mass_ratios velocities"),
     engine=section(
         caps=dict[StructureName, CapBeam],
         restitution=section(
-            frames=Frames,
+            "frames",
             lean=Fraction,
             damping_ratios=Items[Positive],
             time_constants=Items[Positive],
         ),
         outcomes=section(
-            frames=Frames,
+            "frames friction time_step",
             pulses=Items[PulseRatio],
             factors=Items[Positive],
-            contacts=section(**dict.fromkeys(("no rebound", "rebound"), Contact)),
-            friction=Positive,
-            time_step=Positive,
+            contacts=section(
+                **dict.fromkeys(
+                    ("no rebound", "rebound"),
+                    section(time_constant=Positive, damping_ratio=Positive),
+                )
+            ),
             lean=Fraction,
         ),
         across=section(
-            structure=StructureName,
+            "structure shape depths time_step friction checks",
             mass_ratios=Items[Positive],
-            shape=Shape,
             frequency_ratios=Items[Positive],
-            depths=Items[Positive],
             oblique=Items[Degrees],
             step=Positive,
-            time_step=Positive,
-            friction=Positive,
-            checks=Checks,
         ),
     ),
     gaps=section(
-        cap=CapBeam,
-        depths=Items[Positive],
+        "cap depths seed duration time_step friction checks",
         gaps=Items[NotNegative],
         draws=Count,
-        seed=Seed,
         ramp=Duration,
-        duration=Duration,
         rocking=Positive,
-        time_step=Positive,
-        friction=Positive,
-        checks=Checks,
     ),
     test_plan=section(
-        column=Column,
+        "column shape frequency_ratio",
         mass_ratio=Positive,
-        shape=Shape,
-        frequency_ratio=Positive,
         reductions=Items[Fraction],
         scatters=Items[Fraction],
         risk=Fraction,

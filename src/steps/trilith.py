@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from replication.claims import print_rounding
+from replication.numbers import print_rounding
 from replication.step import check, grid, run, truth, value
 from steps.shared import plain
 from topheavy import Column, Pulse, RockingFrame, simulate

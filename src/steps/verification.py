@@ -36,7 +36,7 @@ AGREE = 1e-6  # of α: 99 % of the peaks of two solvers
 def cells(settings, shape, linearised):
     """Yield the seeded sample of one ensemble: blocks and pulses."""
     draw = np.random.default_rng(settings["seed"])
-    for number in range(settings["cells"]):
+    for number in range(settings["sample"]):
         slenderness = math.radians(draw.uniform(*settings["slendernesses"]))
         column = Column(math.sin(slenderness), math.cos(slenderness))
         block = RockingFrame(column, draw.choice(settings["mass_ratios"])).block()

@@ -316,7 +316,7 @@ def test_counts_are_of_outcomes_that_are_known(monkeypatch):
         "sizes": {"lowest": 1.0, "highest": 2.0, "points": 1},
         "factors": {"lowest": 1.0, "highest": 4.0, "points": 4},
         "capacity": {"structure": "temple"},
-        "checked": 1,
+        "sample": 1,
     }
     made = records.compute(settings, {"tightened": 1e-12}, CONFIG["structures"], ["one"])
     (row,) = made["table"]

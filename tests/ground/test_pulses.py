@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import topheavy.ground.shapes
-from replication.config import Shape
+from replication.sections import Shape
 from tests.cases import SIDES
 from topheavy import Pulse
 from topheavy.ground.excitation import Segment, zero_acceleration

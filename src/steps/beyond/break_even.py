@@ -114,7 +114,7 @@ def sampled(samples, settings, motions, column):
     """Yield a seeded sample of the outcomes, half of them beside a boundary."""
     random = np.random.default_rng(settings["bootstrap"]["seed"])
     question, motions_of = restitution_question(motions, settings, column), models(motions)
-    for number in range(settings["checked"]):
+    for number in range(settings["sample"]):
         name = [*samples][number % len(samples)]
         at, place, level = (int(random.integers(size)) for size in samples[name].shape)
         record, block = motions_of[name][at].record(), question.blocks[place]

@@ -171,7 +171,7 @@ def sampled(shards, settings, column):
     """Yield a seeded sample of outcomes; half of those without vertical motion at a boundary."""
     random = np.random.default_rng(settings["bootstrap"]["seed"])
     question, motions = stated(settings, column), models(settings)
-    for number in range(settings["checked"]):
+    for number in range(settings["sample"]):
         model = [*motions][number % len(motions)]
         results = outcomes(shards, model)[..., 0]
         at, place = (int(random.integers(size)) for size in results.shape)

@@ -35,7 +35,7 @@ def compute(settings, solver, structures, components):
                 | {"only_lighter": ((one == 1) & (other == -1)).sum()}
                 | {"only_heavier": ((one == -1) & (other == 1)).sum()}
             )
-    at = np.linspace(0, len(edges) - 1, settings["checked"]).astype(int)
+    at = np.linspace(0, len(edges) - 1, settings["sample"]).astype(int)
     check_sample(edges[place] for place in at)
     spec, column = settings["capacity"], Column(**structures[settings["capacity"]["structure"]])
     records = map(read_record, components)
