@@ -87,6 +87,29 @@ for path in sorted(glob("notebooks/*.ipynb")):
             "../src/documents/notebook.py"
 
 
+rule functions:
+    input:
+        records=[*HORIZONTAL, *UPWARD],
+        kernel="results/kernel.compiled",
+        style="figures/style.mplstyle",
+    output:
+        page="results/functions.html",
+    log:
+        "results/logs/functions.log",
+    benchmark:
+        "results/benchmarks/functions.tsv"
+    params:
+        code=code(
+            "src/documents/functions.py",
+            *sorted(glob("src/topheavy/**/*.py", recursive=True)),
+            "src/topheavy/__init__.pyi",
+        ),
+    message:
+        "Writing the page of the library's functions"
+    script:
+        "../src/documents/functions.py"
+
+
 rule claims:
     input:
         made(".json"),

@@ -23,6 +23,7 @@ PAGES = {
     "paper/supplement.pdf": "supplement.pdf",
     "results/verdicts.md": "verdicts.md",
     "results/explorer.html": "explorer.html",
+    "results/functions.html": "functions.html",
     "results/animation.gif": "animation.gif",
     "results/certificates/proven.jsonl": "certificates.jsonl.gz",
 }

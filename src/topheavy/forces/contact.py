@@ -91,6 +91,7 @@ class Reaction:
 
     Examples
     --------
+    >>> from topheavy.forces.contact import column_forces
     >>> column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).horizontal.item()
     0.05
     """

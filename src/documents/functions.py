@@ -1,0 +1,194 @@
+"""Write the page of the library's functions with pdoc, in a user's order, from their docstrings.
+
+The examples are run, and the figure that one draws is shown below it.
+"""
+
+import doctest
+import inspect
+import os
+import re
+import sys
+import tempfile
+from base64 import b64encode
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+import pdoc
+
+import topheavy
+from replication.drawing import picture
+from replication.step import run, stop
+
+OTHERS = "types of results, constants"
+"""The heading of the names that the docstring of the package does not list."""
+
+
+def headings() -> dict[str, list[str]]:
+    """Return the public names, a function of a module as `plot.history`, by their headings."""
+    text, _, _ = str(topheavy.__doc__).partition("It does not model")
+    items = re.findall(r"^- (.+?): (.+(?:\n  .+)*)", text, re.MULTILINE)
+    listed = {title: re.findall(r"`(\w+)`", names) for title, names in items}
+    known = [name for names in listed.values() for name in names]
+    listed[OTHERS] = [name for name in topheavy.__all__ if name not in known]
+    return {
+        title[0].upper() + title[1:]: [full for name in names for full in functions(name)]
+        for title, names in listed.items()
+    }
+
+
+def functions(name: str) -> list[str]:
+    """Return a public name, or of a module the names of its functions."""
+    if not inspect.ismodule(module := getattr(topheavy, name)):
+        return [name]
+    members = inspect.getmembers(module, inspect.isfunction)
+    inside = [part for part, of in members if of.__module__.startswith(module.__name__)]
+    return [f"{name}.{part}" for part in inside if part[0] != "_"]
+
+
+def described() -> pdoc.doc.Module:
+    """Return pdoc's description of the library, with all public names in one module."""
+    module = pdoc.doc.Module(topheavy)
+    module.submodules = []
+    module.members = {full: member(full) for names in headings().values() for full in names}
+    for doc in nested(module):
+        if isinstance(doc, pdoc.doc.Function):
+            doc.signature = as_written(doc)
+    return module
+
+
+def member(full: str) -> pdoc.doc.Doc:
+    """Return pdoc's description of a public name, of a class without undocumented members."""
+    *module, name = full.split(".")
+    content = getattr(getattr(topheavy, module[0]) if module else topheavy, name)
+    source = getattr(content, "__module__", ""), name
+    if inspect.isclass(content):
+        doc = pdoc.doc.Class("topheavy", full, content, source)
+        doc.members = {name: each for name, each in doc.members.items() if shows(each)}
+        doc.own_members = [*doc.members.values()]
+        doc.inherited_members, doc.decorators, doc.bases = {}, [], []
+        return doc
+    if inspect.isfunction(content):
+        doc = pdoc.doc.Function("topheavy", full, content, source)
+        doc.name = full
+        return doc
+    modules = [of for path, of in sorted(sys.modules.items()) if path.startswith("topheavy.")]
+    places = (pdoc.doc.Module(of).get(name) for of in modules if name in vars(of))
+    text = next(doc.docstring for doc in places if doc and doc.docstring)
+    return pdoc.doc.Variable(
+        "topheavy", full, taken_from=source, docstring=text, default_value=content
+    )
+
+
+def shows(doc: pdoc.doc.Doc) -> bool:
+    """Return whether the page shows a member of a class: the constructor, or a documented one."""
+    return doc.name == "__init__" or bool(doc.docstring and doc.name[0] != "_")
+
+
+def nested(doc: Any) -> Iterator[Any]:
+    """Return the members of a module, and those of its classes."""
+    for each in doc.own_members:
+        yield each
+        if each.kind == "class":
+            yield from nested(each)
+
+
+class Annotation(str):
+    """An annotation as its source has it; pdoc would print what NumPy's aliases stand for."""
+
+    __repr__ = str.__str__
+
+
+def as_written(doc: pdoc.doc.Function) -> inspect.Signature:
+    """Return the signature of a function, with public names in full so that pdoc links them."""
+
+    def written(annotation: Any) -> Any:
+        if not isinstance(annotation, str):
+            return annotation
+        names = "|".join(topheavy.__all__)
+        return Annotation(re.sub(rf"\b({names})\b", r"topheavy.\1", annotation))
+
+    signature = inspect.signature(doc.obj)
+    parameters = [
+        each.replace(annotation=written(each.annotation)) for each in signature.parameters.values()
+    ]
+    returned = doc.name != "__init__" and written(signature.return_annotation)
+    return signature.replace(
+        parameters=parameters, return_annotation=returned or inspect.Signature.empty
+    )
+
+
+def drawn(doc: pdoc.doc.Doc, style: Path) -> str:
+    """Run the examples of a docstring, and return what they draw as an SVG, or nothing.
+
+    Raises
+    ------
+    SystemExit
+        When an example is not true.
+    """
+    names = {"th": topheavy, "np": np}
+    test = doctest.DocTestParser().get_doctest(doc.docstring, names, doc.fullname, None, None)
+    report: list[str] = []
+    with mpl.rc_context(fname=style):
+        if doctest.DocTestRunner(verbose=False).run(test, out=report.append).failed:
+            stop("".join(report))
+        if not plt.get_fignums():
+            return ""
+        labels = ", ".join(
+            f"{axes.get_ylabel()} over {axes.get_xlabel()}" for axes in plt.gcf().axes
+        )
+        title = doc.docstring.splitlines()[0]
+        return picture(plt.gcf(), title, f"What the example draws: {labels}")
+
+
+def pictures(module: pdoc.doc.Module, style: str, records: list[str]) -> dict[str, str]:
+    """Return what examples draw, by their names; they read records, and write into a folder."""
+    paths, before = [Path(path).resolve() for path in [style, *records]], Path.cwd()
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "data/records").mkdir(parents=True)
+        for record in paths[1:]:
+            Path(folder, "data/records", record.name).symlink_to(record)
+        os.chdir(folder)
+        try:
+            shown = {doc.qualname: drawn(doc, paths[0]) for doc in nested(module)}
+        finally:
+            os.chdir(before)
+    return {name: svg for name, svg in shown.items() if svg}
+
+
+def page(module: pdoc.doc.Module, shown: dict[str, str]) -> str:
+    """Return the page, the same each time: under headings, with pictures, without sources."""
+    pdoc.render.configure(docformat="numpy", show_source=False, search=False, math=False)
+    for doc in nested(module):
+        if doc.qualname in shown:
+            doc.docstring += f"\n\nFIGURE-{doc.qualname}"
+    text = pdoc.render.html_module(module, {"topheavy": module})
+
+    def figure(match: re.Match[str]) -> str:
+        content = b64encode(shown[match[1]].encode()).decode()
+        alt = re.search("(?s)<desc>(.*?)</desc>", shown[match[1]])[1]
+        return f'<img src="data:image/svg+xml;base64,{content}" alt="{alt}">'
+
+    text = re.sub(r"FIGURE-([\w.]+)", figure, text)
+    text = text.replace("topheavy API documentation", "Functions of topheavy")
+    text = text.replace("<h2>API Documentation</h2>", "<h2>Functions</h2>")
+    text = re.sub(r'<h6 id="[^"]*">(.*?)</h6>', r"<h6>\1</h6>", text)  # an id for all functions
+    text = re.sub(r'(?s)(<a class="class"[^>]*>\w+</a>)\s*<ul.*?</ul>', r"\1", text)  # of members
+    for title, (first, *_) in headings().items():
+        text = text.replace(f'<section id="{first}">', f'<h2>{title}</h2>\n<section id="{first}">')
+        link = rf'<li>\s*<a class="\w+" href="#{re.escape(first)}">'
+        text = re.sub(link, rf"<li><b>{title}</b></li>\n\g<0>", text)
+    return text
+
+
+def compute(style: str, records: list[str]) -> dict[str, str]:
+    """Return the page of the library's functions."""
+    module = described()
+    return {"page": page(module, pictures(module, style, records))}
+
+
+if __name__ == "__main__":
+    run(snakemake, compute)
