@@ -4,8 +4,8 @@ import re
 
 import pandas as pd
 
+from derivation import check_printed, theorems
 from replication.step import check, run, truth
-from topheavy.derivation import check_printed, theorems
 
 VARIANT = re.compile(r"_(negative|positive|\d+)$")  # the sign of θ, or the equation of a step
 

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import sympy as sp
 
+from derivation.mechanics import RECTANGULAR_OF_TWO, potential_energy
+from derivation.notation import POSITIVE, R, alpha, g, gamma, m_c
 from replication.step import check, run, truth, value
 from steps.shared import plain
 from topheavy import Column, FixedMassColumn, Pulse, RockingFrame, lowest_overturning
 from topheavy.bodies.moment_rotation import restoring_moment
-from topheavy.derivation.motion import RECTANGULAR_OF_TWO, potential_energy
-from topheavy.derivation.notation import POSITIVE, R, alpha, g, gamma, m_c
 
 ROUNDING = 1e-12  # of m_c g R
 DIGITS = 1e-8  # of a number in a table

@@ -3,6 +3,9 @@
 import numpy as np
 import sympy as sp
 
+from derivation.mechanics import cap_motion
+from derivation.notation import NEGATIVE, POSITIVE, acceleration, is_identically_zero, read
+from derivation.printed import EQUATIONS, rectangular_column
 from replication.step import check, power_above, run, truth
 from steps.shared.three_bodies import simulate_three_bodies
 from topheavy import (
@@ -17,9 +20,6 @@ from topheavy import (
 from topheavy.bodies.free_rocking import quarter_period
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.bodies.massless_columns import simplified
-from topheavy.derivation.motion import cap_motion
-from topheavy.derivation.notation import NEGATIVE, POSITIVE, acceleration, is_identically_zero, read
-from topheavy.derivation.printed import EQUATIONS, rectangular_column
 from topheavy.forces.contact import forces_at
 from topheavy.kernel.step import TOLERANCE
 

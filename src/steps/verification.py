@@ -10,6 +10,8 @@ import numpy as np
 import sympy as sp
 from scipy.special import ellipkinc
 
+from derivation import mechanics
+from derivation.notation import alpha, gamma
 from replication.step import check, power_above, run, value
 from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact
@@ -23,8 +25,6 @@ from topheavy import (
     simulate,
 )
 from topheavy.bodies.free_rocking import Outcome, energy_drift
-from topheavy.derivation import motion
-from topheavy.derivation.notation import alpha, gamma
 from topheavy.ground.shapes import ELEMENTARY
 from topheavy.kernel.step import TOLERANCE
 
@@ -175,9 +175,9 @@ def check_drift(settings):
 
 def check_formulas():
     """Check the library's p̂/p, R̂/R, √r of column and frame and g tan α against the derivation."""
-    frame = [sp.lambdify(gamma, f()) for f in (motion.frequency_ratio, motion.size_ratio)]
-    frame_root = sp.lambdify((alpha, gamma), motion.restitution())
-    column_root = sp.lambdify(alpha, motion.column_restitution())
+    frame = [sp.lambdify(gamma, f()) for f in (mechanics.frequency_ratio, mechanics.size_ratio)]
+    frame_root = sp.lambdify((alpha, gamma), mechanics.restitution())
+    column_root = sp.lambdify(alpha, mechanics.column_restitution())
     for angle in np.radians(np.linspace(1.0, 60.0, 60)):
         column = Column(math.sin(angle), math.cos(angle))
         for ratio in (0.0, 0.1, 0.434, 1.0, 7.0, 100.0):

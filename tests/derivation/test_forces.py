@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from topheavy import STANDARD_GRAVITY, Cap, Column, RockingFrame
-from topheavy import impact_impulses as impulses_of
-from topheavy.derivation import consequences
-from topheavy.derivation.motion import (
+from derivation import consequences
+from derivation.mechanics import (
     column_restitution,
     energy_slenderness,
     equation_of_motion,
@@ -20,7 +18,7 @@ from topheavy.derivation.motion import (
     motion_of_columns,
     restitution,
 )
-from topheavy.derivation.notation import (
+from derivation.notation import (
     NEGATIVE,
     POSITIVE,
     SIDES,
@@ -40,6 +38,8 @@ from topheavy.derivation.notation import (
     velocity,
     vertical_acceleration,
 )
+from topheavy import STANDARD_GRAVITY, Cap, Column, RockingFrame
+from topheavy import impact_impulses as impulses_of
 from topheavy.forces.contact import forces_at as forces_of
 from topheavy.forces.frame import base_shear_slope
 

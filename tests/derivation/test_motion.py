@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from topheavy.derivation.motion import (
+from derivation.mechanics import (
     cap_contact,
     cap_motion,
     centre,
@@ -12,7 +12,7 @@ from topheavy.derivation.motion import (
     moment_of_inertia,
     potential_energy,
 )
-from topheavy.derivation.notation import (
+from derivation.notation import (
     SIDES,
     I_o,
     R,

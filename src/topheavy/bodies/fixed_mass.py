@@ -10,8 +10,9 @@ edge, for the mass M,
 
     tan α' = B/H,    p'² = M g √(B² + H²) / I,    √r' = 1 − 2 M B²/I
 
-`topheavy.derivation.fixed_mass` derives all three from the balances of column and cap. The paper
-has neither structure; they are what its cap beam would do if it could not turn against the columns.
+src/derivation/fixed_mass.py of the repository derives all three from the balances of column and
+cap. The paper has neither structure; they are what its cap beam would do if it could not turn
+against the columns.
 """
 
 from __future__ import annotations

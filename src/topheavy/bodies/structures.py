@@ -194,7 +194,7 @@ class RockingFrame:
         """Return the frame of a cap beam on two or more equal columns, by its masses.
 
         The number N of columns enters by γ = m_b/(N m_c) alone; two give the paper's m_b/2m_c.
-        `topheavy.derivation.motion` derives the equation of motion and √r for every N.
+        src/derivation/mechanics.py of the repository derives the motion and √r for every N.
 
         Parameters
         ----------

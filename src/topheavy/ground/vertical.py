@@ -1,7 +1,7 @@
 """A horizontal and a vertical ground motion together: checks, and both in common segments.
 
 Vertical ground acceleration v (g, upward) makes gravity (1 + v) g (proved in
-`topheavy.derivation.extensions`). Between impacts
+src/derivation/extensions.py of the repository). Between impacts
 
     θ̈ = −p² (1 + v) { sin(α sgn θ − θ) + a/(1 + v) cos(α sgn θ − θ) }
 

@@ -19,8 +19,8 @@ from typing import TypeAlias
 
 import sympy as sp
 
-from topheavy.derivation import motion
-from topheavy.derivation.notation import (
+from derivation import mechanics
+from derivation.notation import (
     NEGATIVE,
     POSITIVE,
     SIDES,
@@ -49,32 +49,32 @@ Premises: TypeAlias = Callable[[Side], Values]
 @cache
 def rectangle(side: Side) -> Values:
     """The column's size, slenderness and moment of inertia, from its half-width and half-height."""
-    return {R: motion.size(), alpha: motion.slenderness(), I_o: motion.moment_of_inertia()}
+    return {R: mechanics.size(), alpha: mechanics.slenderness(), I_o: mechanics.moment_of_inertia()}
 
 
 @cache
 def column(side: Side) -> Values:
     """The solitary column's equation of motion, and p² for what multiplies the restoring sine."""
-    squared = motion.squared_frequency(motion.column_motion(NEGATIVE), NEGATIVE)
-    return {m: m_c, acceleration: motion.column_motion(side), sp.Symbol("p"): sp.sqrt(squared)}
+    squared = mechanics.squared_frequency(mechanics.column_motion(NEGATIVE), NEGATIVE)
+    return {m: m_c, acceleration: mechanics.column_motion(side), sp.Symbol("p"): sp.sqrt(squared)}
 
 
 @cache
 def rectangular_column(side: Side) -> Values:
     """p of a rectangular column."""
-    return {name: value.subs(motion.RECTANGULAR) for name, value in column(side).items()}
+    return {name: value.subs(mechanics.RECTANGULAR) for name, value in column(side).items()}
 
 
 @cache
 def kinematics(side: Side) -> Values:
     """The cap beam's displacements, velocities and accelerations, from the geometry."""
-    return {sp.Symbol(x): value for x, value in motion.cap_motion(side)._asdict().items()}
+    return {sp.Symbol(x): value for x, value in mechanics.cap_motion(side)._asdict().items()}
 
 
 @cache
 def frame(side: Side) -> Values:
     """θ̈, the forces on the cap beam and its accelerations, on every motion of the three bodies."""
-    moves = motion.frame_motion(side)
+    moves = mechanics.frame_motion(side)
     return moves | {name: value.subs(moves) for name, value in kinematics(side).items()}
 
 
@@ -83,26 +83,28 @@ def rectangular_frame(side: Side) -> Values:
     """θ̈ of the frame of rectangular columns, with p of its columns and its own p̂ and R̂."""
     p = rectangular_column(side)[sp.Symbol("p")]
     return {
-        acceleration: motion.equation_of_motion(side).rhs,
+        acceleration: mechanics.equation_of_motion(side).rhs,
         sp.Symbol("p"): p,
-        sp.Symbol("p_hat"): motion.frequency_ratio() * p,
-        sp.Symbol("R_hat"): motion.size_ratio() * R,
+        sp.Symbol("p_hat"): mechanics.frequency_ratio() * p,
+        sp.Symbol("R_hat"): mechanics.size_ratio() * R,
     }
 
 
 @cache
 def impact(side: Side) -> Values:
     """Velocities and the ratio of kinetic energies as the frame changes over to the side."""
-    after = side.upright(motion.kinetic_energy(side)).subs(velocity, velocity_after)
-    before = side.other.upright(motion.kinetic_energy(side.other)).subs(velocity, velocity_before)
-    change = {velocity_after: motion.restitution(side) * velocity_before}
+    after = side.upright(mechanics.kinetic_energy(side)).subs(velocity, velocity_after)
+    before = side.other.upright(mechanics.kinetic_energy(side.other)).subs(
+        velocity, velocity_before
+    )
+    change = {velocity_after: mechanics.restitution(side) * velocity_before}
     return change | {sp.Symbol("r"): (after / before).subs(ground_velocity, 0).subs(change)}
 
 
 @cache
 def column_impact(side: Side) -> Values:
     """Velocities as the solitary column changes over to the side."""
-    return {velocity_after: motion.column_restitution(side) * velocity_before}
+    return {velocity_after: mechanics.column_restitution(side) * velocity_before}
 
 
 @cache
@@ -128,7 +130,7 @@ class Statement:
     name
         "eq9", or "text_…" for a formula in the running text.
     printed
-        The equation, as `topheavy.derivation.notation.read` takes it.
+        The equation, as `derivation.notation.read` takes it.
     premises
         The premises from which it has to follow.
     sides

@@ -1,8 +1,8 @@
 """The paper's derivation by computer algebra, and a test of every equation as it is printed.
 
-motion     geometry, balances, energies and impulses of a cap beam on N columns  ─►  θ̈, √r, R̂/R
+mechanics  geometry, balances, energies and impulses of a cap beam on N columns  ─►  θ̈, √r, R̂/R
 printed    the equations in our copy of the paper, and what each follows from  ─►  check_printed
-consequences, fixed_mass, extensions, pulses, plane, reversals  ─►  theorems
+consequences, fixed_mass, extensions, reversals  ─►  theorems
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ from __future__ import annotations
 import inspect
 from typing import NamedTuple
 
-from topheavy.derivation import consequences, extensions, fixed_mass, plane, pulses, reversals
-from topheavy.derivation.checks import PrintedCheck, check_printed
+from derivation import consequences, extensions, fixed_mass, reversals
+from derivation.check_printed import PrintedCheck, check_printed
 
 __all__ = ["PrintedCheck", "Theorem", "check_printed", "theorems"]
 
 PROOFS = {
     "paper": (*consequences.PROOFS, *fixed_mass.PROOFS),
-    "extensions": (*extensions.PROOFS, *pulses.PROOFS, *plane.PROOFS),
+    "extensions": extensions.PROOFS,
     "reversals": reversals.PROOFS,
 }
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from topheavy.derivation.motion import column_motion
-from topheavy.derivation.notation import (
+from derivation.mechanics import column_motion
+from derivation.notation import (
     NEGATIVE,
     Side,
     alpha,
@@ -17,7 +17,7 @@ from topheavy.derivation.notation import (
     is_identically_zero,
     read,
 )
-from topheavy.derivation.printed import (
+from derivation.printed import (
     EQUATIONS,
     IN_TEXT,
     STEPS,

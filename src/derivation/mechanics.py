@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import sympy as sp
 
-from topheavy.derivation.notation import (
+from derivation.notation import (
     NEGATIVE,
     POSITIVE,
     CircleField,

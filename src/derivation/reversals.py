@@ -16,8 +16,8 @@ from functools import cache
 
 import sympy as sp
 
-from topheavy.derivation.motion import equation_of_motion, frequency_ratio, squared_frequency
-from topheavy.derivation.notation import SIDES, Side, alpha, g, gamma, ground_acceleration
+from derivation.mechanics import equation_of_motion, frequency_ratio, squared_frequency
+from derivation.notation import SIDES, Side, alpha, g, gamma, ground_acceleration
 
 p_1, p_2 = sp.symbols("p_1 p_2", positive=True)
 _a, _z, _z_dot, _y_dot = sp.symbols("a z z_dot y_dot", real=True)

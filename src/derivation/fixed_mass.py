@@ -5,7 +5,7 @@ formulas for α', p' and √r' are results, not assumptions.
 
 The cap weighs γ m_c, that of the frame whose cap beam has the same mass for each column. Its centre
 is d above the top of the column, and its central moment of inertia is I_b; both are zero for a mass
-that is concentrated at the top. With x = tan² α > 0 every comparison is one of rational functions.
+that is concentrated at the top.
 """
 
 from __future__ import annotations
@@ -14,24 +14,17 @@ from functools import cache
 
 import sympy as sp
 
-from topheavy.derivation.motion import (
+from derivation.mechanics import (
     LOADS,
     RECTANGULAR,
     above_top,
     centre,
-    column_motion,
-    column_restitution,
-    frequency_ratio,
     jump,
     moment,
-    rate,
-    restitution,
     solved,
-    squared_frequency,
-    tangent_form,
     uplift_acceleration,
 )
-from topheavy.derivation.notation import (
+from derivation.notation import (
     NEGATIVE,
     POSITIVE,
     SIDES,
@@ -44,11 +37,9 @@ from topheavy.derivation.notation import (
     g,
     gamma,
     ground_acceleration,
-    ground_velocity,
     half_depth,
     is_identically_zero,
     m_c,
-    velocity,
     velocity_after,
     velocity_before,
     vertical_acceleration,
@@ -58,7 +49,6 @@ I_b = sp.Symbol("I_b", positive=True)
 CONCENTRATED = {half_depth: 0, I_b: 0}
 """The mass at a point, the top of the column's axis."""
 
-_x = sp.Symbol("x", positive=True)
 _CAP = gamma * m_c
 
 
@@ -105,31 +95,11 @@ def fixed_fourth_power(side: Side = NEGATIVE) -> sp.Expr:
     return sp.factor(CircleField([power]).reduced(power))
 
 
-def fixed_lagrange(side: Side) -> sp.Expr:
-    """θ̈ of the same by energies alone."""
-    ground = sp.Matrix([ground_velocity, 0])
-    kinetic, potential = (I_o - m_c * R**2 + I_b) * velocity**2 / 2, sp.Integer(0)
-    for mass, point in _masses(side):
-        moves = rate(side, point) + ground
-        kinetic += mass * moves.dot(moves) / 2
-        potential += mass * g * (point - side.upright(point))[1]
-    momentum = sp.diff(kinetic, velocity)
-    balance = side.time_derivative(momentum) - sp.diff(kinetic - potential, side.rotation)
-    return solved(sp.expand(balance).subs(RECTANGULAR), acceleration)
-
-
 def _inertia() -> sp.Expr:
     """I about the corner: the column's, and by Steiner the cap's."""
     height = 2 * R * sp.cos(alpha) + half_depth
     arm = (R * sp.sin(alpha)) ** 2 + height**2
     return sp.Rational(4, 3) * m_c * R**2 + I_b + _CAP * arm
-
-
-def _fourth_powers() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """p'⁴ for a concentrated mass, p⁴ of the column and p̂⁴ of the frame, in x and γ."""
-    squared = squared_frequency(column_motion(NEGATIVE), NEGATIVE).subs(RECTANGULAR)
-    fixed = tangent_form(fixed_fourth_power().subs(CONCENTRATED))
-    return fixed, squared**2, squared**2 * frequency_ratio() ** 4
 
 
 def fixed_mass_rocks_as_one_column() -> bool:
@@ -154,13 +124,6 @@ def fixed_mass_rocks_as_one_column() -> bool:
     return all(identities)
 
 
-def energies_give_the_same_motion_of_the_fixed_mass() -> bool:
-    """Energies alone give the same equation of motion as the balances of column and cap."""
-    return all(
-        is_identically_zero(fixed_motion(side) - fixed_lagrange(side), side) for side in SIDES
-    )
-
-
 def impulses_give_the_restitution_of_the_fixed_mass() -> bool:
     """√r' = 1 − 2 M b²/I on both sides, with M = (1 + γ) m_c."""
     stated = 1 - 2 * (m_c + _CAP) * (R * sp.sin(alpha)) ** 2 / _inertia()
@@ -183,62 +146,8 @@ def fixed_mass_lowers_the_uplift_acceleration() -> bool:
     return reached and all(falls) and is_identically_zero(concentrated - stated, NEGATIVE)
 
 
-def fixed_mass_tends_to_the_column() -> bool:
-    """For γ → 0 the column with the fixed mass, like the frame, is the column: α, p and √r."""
-    fixed, column, frame = (power.subs(gamma, 0) for power in _fourth_powers())
-    light = {gamma: 0} | CONCENTRATED
-    return (
-        is_identically_zero(fixed_tangent().subs(light) - sp.tan(alpha), NEGATIVE)
-        and sp.simplify(fixed - column) == sp.simplify(frame - column) == 0
-        and is_identically_zero(fixed_restitution().subs(light) - column_restitution(), POSITIVE)
-        and is_identically_zero(restitution().subs(gamma, 0) - column_restitution(), POSITIVE)
-    )
-
-
-def fixed_mass_tends_to_a_point_on_a_stalk() -> bool:
-    """For γ → ∞ the concentrated mass has p'² = g/√(b² + 4h²), and √r' = cos 2α'."""
-    fixed = sp.limit(_fourth_powers()[0], gamma, sp.oo)
-    b, h = R * sp.sin(alpha), R * sp.cos(alpha)
-    p_as_stated = tangent_form(g**2 / (b**2 + 4 * h**2))
-    root = tangent_form(sp.limit(fixed_restitution().subs(CONCENTRATED), gamma, sp.oo))
-    square = _x / 4  # tan²α'
-    return bool(
-        sp.factor(fixed - p_as_stated) == 0 and sp.factor(root - (1 - square) / (1 + square)) == 0
-    )
-
-
-def fixed_mass_slows_the_column() -> bool:
-    """p' < p for every γ > 0 and every α up to 45°: the mass at the top enlarges, though fixed."""
-    fixed, column, _ = _fourth_powers()
-    slender = sp.factor((column - fixed).subs(_x, 1 / (1 + sp.Symbol("y", positive=True))))
-    return bool(slender.is_positive)
-
-
-def freed_mass_slows_the_column_more() -> bool:
-    """p̂ < p' for every γ > 0 and every α."""
-    fixed, _, frame = _fourth_powers()
-    return bool(sp.factor(fixed - frame).is_positive)
-
-
-def fixed_mass_keeps_more_velocity() -> bool:
-    """√r' of the concentrated mass exceeds √r of the column exactly for tan²α < 8, for γ > 0.
-
-    √r of the column exceeds that of the frame for every α.
-    """
-    fixed = tangent_form(fixed_restitution().subs(CONCENTRATED))
-    column, frame = tangent_form(column_restitution()), tangent_form(restitution())
-    gain = sp.factor((fixed - column) / (8 - _x))
-    return bool(gain.is_positive) and bool(sp.factor(column - frame).is_positive)
-
-
 PROOFS = (
     fixed_mass_rocks_as_one_column,
-    energies_give_the_same_motion_of_the_fixed_mass,
     impulses_give_the_restitution_of_the_fixed_mass,
     fixed_mass_lowers_the_uplift_acceleration,
-    fixed_mass_tends_to_the_column,
-    fixed_mass_tends_to_a_point_on_a_stalk,
-    fixed_mass_slows_the_column,
-    freed_mass_slows_the_column_more,
-    fixed_mass_keeps_more_velocity,
 )
