@@ -220,6 +220,7 @@ Paper = section(
         grids=Items[section("shapes mass_ratios frequency_ratios")],
         longest=Positive,
         floor=Fraction,
+        search=section(floor=Fraction, below=Positive, near=Fraction),
         wide=Fraction,
         portal=CapBeam,
         picture=section("mass_ratio", amplitudes=Items[Positive], cap=Cap),

@@ -29,13 +29,14 @@ from topheavy import (
     simulate,
 )
 from topheavy.bodies.structures import Structure
+from topheavy.outcomes.minimum import lowest_of_many
 
 DISTANCES = (
     1e-7,
     1e-5,
     1e-3,
 )  # over a minimum: where the plain solver judges
-CHUNK = 512  # factors that are tried in one call where a wide interval is sought
+CHUNK = 64  # factors that are tried in one call where a wide interval is sought
 SEED = 2014  # of the minima that the plain solver judges
 FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of a structure that overturns
 BARE, FIXED, FREE, PORTAL = "bare", "fixed", "free", "portal"
@@ -62,6 +63,36 @@ def lowest(
         return None
     interval = lowest_overturning(structure, pulse, (level, highest), floor=floor * level)
     return interval if interval.bracket else None
+
+
+def lowest_by_two_floors(
+    cases: Sequence[tuple[Structure, Pulse]], highest: float, settings: dict
+) -> list[LowestOverturning | None]:
+    """Return `lowest` of all cases, by a search in wide steps and one in narrow steps below it.
+
+    The second begins at uplift where the first minimum is close to it, and near it elsewhere.
+    """
+    spec, levels = settings["search"], [one.block().uplift_acceleration for one, _ in cases]
+    searched = [at for at, level in enumerate(levels) if level < highest]
+    found: list[LowestOverturning | None] = [None] * len(cases)
+
+    def search(ends: dict[int, tuple[float, float]], floor: float) -> None:
+        floors = [floor * levels[at] for at in ends]
+        pairs = zip(*(cases[at] for at in ends), strict=True)
+        intervals = lowest_of_many(*pairs, [*ends.values()], floors)
+        for at, interval in zip(ends, intervals, strict=True):
+            if interval.bracket and interval.bracket[1] < ends[at][1]:
+                found[at] = interval
+
+    search({at: (levels[at], highest) for at in searched}, spec["floor"])
+    below = {}
+    for at, interval in enumerate(found):
+        if interval and interval.factor > levels[at]:
+            close = interval.factor < spec["below"] * levels[at]
+            begin = levels[at] if close else (1.0 - spec["near"]) * interval.factor
+            below[at] = (max(begin, levels[at]), interval.factor)
+    search(below, settings["floor"])
+    return found
 
 
 def lowest_wide(
@@ -138,33 +169,38 @@ def over_frequency(column: Column, settings: dict) -> list[dict]:
     """
     highest, floor = settings["highest"] * column.uplift_acceleration, settings["floor"]
     rows, sample = [], []
-    cases = (
-        (spec, shape, float(ratio))
+    cases = [
+        (shape, float(ratio), *rival)
         for spec in settings["grids"]
         for shape, ratio in product(spec["shapes"], grid(spec["frequency_ratios"]))
-    )
-    for spec, shape, ratio in cases:
-        pulse, bare = Pulse(shape, 1.0, ratio * column.frequency_parameter), math.inf
-        for name, gamma, structure in rivals(column, spec["mass_ratios"]):
-            interval = lowest(structure, pulse, highest, floor)
-            minimum = wide = math.inf
-            if interval:
-                step = floor * structure.block().uplift_acceleration
-                width, minimum = settings["wide"] / floor * step, interval.factor
-                wide = lowest_wide(structure, pulse, minimum, highest, step, width)
-                sample.append((structure, pulse, interval))
-            bare = minimum if name == BARE else bare
-            rows.append(
-                {"motion": shape, "frequency_ratio": ratio, "structure": name}
-                | {"mass_ratio": gamma, "minimum": minimum, "wide_minimum": wide}
+        for rival in rivals(column, spec["mass_ratios"])
+    ]
+    pairs = [
+        (structure, Pulse(shape, 1.0, ratio * column.frequency_parameter))
+        for shape, ratio, *_, structure in cases
+    ]
+    intervals = lowest_by_two_floors(pairs, highest, settings)
+    bare = math.inf
+    for case, (structure, pulse), interval in zip(cases, pairs, intervals, strict=True):
+        shape, ratio, name, gamma, _ = case
+        minimum = wide = math.inf
+        if interval:
+            step = floor * structure.block().uplift_acceleration
+            width, minimum = settings["wide"] / floor * step, interval.factor
+            wide = lowest_wide(structure, pulse, minimum, highest, step, width)
+            sample.append((structure, pulse, interval))
+        bare = minimum if name == BARE else bare
+        rows.append(
+            {"motion": shape, "frequency_ratio": ratio, "structure": name}
+            | {"mass_ratio": gamma, "minimum": minimum, "wide_minimum": wide}
+        )
+        if is_exception(name, minimum, bare):
+            later, earlier = (column, minimum) if name == FREE else (structure, bare)
+            falls = plain.judge(later, pulse.scaled(earlier)).overturned
+            check(
+                not falls,
+                f"{later} overturns at {earlier:.9g} g under {pulse}, by the plain solver",
             )
-            if is_exception(name, minimum, bare):
-                later, earlier = (column, minimum) if name == FREE else (structure, bare)
-                falls = plain.judge(later, pulse.scaled(earlier)).overturned
-                check(
-                    not falls,
-                    f"{later} overturns at {earlier:.9g} g under {pulse}, by the plain solver",
-                )
     chosen = np.random.default_rng(SEED).permutation(len(sample))[: settings["sample"]]
     for place in chosen:
         error_of(*sample[place])

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +15,7 @@ from topheavy.bodies.structures import Structure, as_block
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.outcomes.search import (
+    Case,
     cases_of,
     checked_range,
     intervals_of_many,
@@ -24,8 +26,11 @@ from topheavy.outcomes.search import (
 if TYPE_CHECKING:
     import xarray
 
-FACTORS_PER_CALL = 512
-"""Factors of a grid in one call of the kernel, from the lowest up."""
+FACTORS_PER_CALL, MIN_FACTORS_PER_CALL = 512, 32
+"""Factors of all grids in one call of the kernel, and the least of one grid; from the lowest up."""
+
+STEP_ABOVE = 0.1
+"""Of the distance from the minimum: steps by which the end of its interval is sought."""
 
 RESOLUTION = 0.02
 """Normalised by the uplift acceleration: a spectrum misses no wider interval that overturns."""
@@ -49,8 +54,8 @@ class LowestOverturning:
         of the range overturns, it is there twice; None if no factor does.
     upper : (float, float) or None
         The last factor in the same interval, and one above it that the structure survives. None if
-        the interval does not end in the range. Survival regions narrower than the floor may lie in
-        it.
+        the interval does not end in the range. Survival regions narrower than the floor, or than a
+        tenth of their distance from the minimum, may lie in it.
     unit_acceleration : float
         Peak ground acceleration of the factor 1, g.
 
@@ -109,8 +114,9 @@ def lowest_overturning(
     """Return the lowest factor on a ground motion that overturns a structure.
 
     The range is halved until its parts are not wider than the floor. The outcome is computed at
-    the ends of the parts, from the lowest up, and the first change is halved to 1e-10 of the
-    factor. A smaller floor therefore never gives a higher minimum.
+    the ends of the parts, from the lowest up, until one overturns; this change is halved to 1e-10
+    of the factor. A smaller floor therefore never gives a higher minimum. The end of the interval
+    is sought in steps that grow with the distance from the minimum.
 
     Use `capacity` under a record. There the lowest factor often lies in an interval that is
     narrower than any measurement can resolve.
@@ -130,42 +136,95 @@ def lowest_overturning(
     >>> round(th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3).acceleration, 6)
     0.191798
     """
-    first, last = checked_range(excitation, scale_range)
-    if first < 0.0:
+    if (first := checked_range(excitation, scale_range)[0]) < 0.0:
         raise ValueError(
             f"scale_range begins at {first:.6g}; expected factors from zero on: for the mirrored "
             "motion, give excitation.scaled(-1)"
         )
+    cases = cases_of([structure], excitation, scale_range, vertical, scale_vertical)
+    return _lowest(cases, [excitation], [scale_range], [floor])[0]
+
+
+def lowest_of_many(
+    structures: Sequence[Structure],
+    excitations: Sequence[Pulse | Record],
+    scale_ranges: Sequence[tuple[float, float]],
+    floors: Sequence[float],
+) -> list[LowestOverturning]:
+    """Return the `lowest_overturning` of several structures, each with its motion and search."""
+    pairs = zip(structures, excitations, scale_ranges, strict=True)
+    cases = [cases_of([structure], motion, ends)[0] for structure, motion, ends in pairs]
+    return _lowest(cases, excitations, scale_ranges, floors)
+
+
+def _lowest(
+    cases: Sequence[Case],
+    excitations: Sequence[Pulse | Record],
+    scale_ranges: Sequence[tuple[float, float]],
+    floors: Sequence[float],
+) -> list[LowestOverturning]:
+    """Return the lowest factor of each case. All are searched together, in few calls."""
+    grids = [*map(_nested_grid, excitations, scale_ranges, floors)]
+    begin, start = 0, [-1] * len(grids)  # the place in its grid of the first factor that overturns
+    searched = [*range(len(grids))]
+    while searched:
+        end = begin + max(MIN_FACTORS_PER_CALL, FACTORS_PER_CALL // len(searched))
+        parts = [grids[at].factors(range(begin, min(end, grids[at].size))) for at in searched]
+        case_index = np.repeat(searched, [part.size for part in parts])
+        overturned = outcomes_of_factors(cases, case_index, np.concatenate(parts))[1]
+        for at in np.unique(case_index[overturned]).tolist():
+            start[at] = begin + int(np.argmax(overturned[case_index == at]))
+        begin, searched = end, [at for at in searched if start[at] < 0 and end < grids[at].size]
+    overturning = [at for at, place in enumerate(start) if place >= 0]
+    intervals = intervals_on(
+        [cases[at] for at in overturning],
+        [grids[at].from_minimum(start[at]) for at in overturning],
+        max(floors),
+        0,
+    )
+    lowest = {at: first for at, (first, *_) in zip(overturning, intervals, strict=True)}
+    return [
+        LowestOverturning(
+            scale_range=(grids[at].first, grids[at].last),
+            floor=floor,
+            bracket=lowest[at].lower if at in lowest else None,
+            upper=lowest[at].upper if at in lowest else None,
+            unit_acceleration=excitation.peak_acceleration,
+        )
+        for at, (excitation, floor) in enumerate(zip(excitations, floors, strict=True))
+    ]
+
+
+class _Grid(NamedTuple):
+    """Factors in equal steps."""
+
+    first: float
+    last: float
+    size: int
+
+    def factors(self, places: Sequence[int]) -> NDArray[np.float64]:
+        step = (self.last - self.first) / (self.size - 1)
+        return np.asarray(self.first + step * np.asarray(places))
+
+    def from_minimum(self, start: int) -> NDArray[np.float64]:
+        """Return the factor before the one at `start`, this one, and others in growing steps."""
+        places = [start]
+        while places[-1] < self.size - 1:
+            step = max(1, int(STEP_ABOVE * (places[-1] - start)))
+            places.append(min(places[-1] + step, self.size - 1))
+        return self.factors([start - 1, *places] if start else places)
+
+
+def _nested_grid(
+    excitation: Pulse | Record, scale_range: tuple[float, float], floor: float
+) -> _Grid:
+    """Return a range in equal parts not wider than the floor; their number is a power of two."""
+    first, last = checked_range(excitation, scale_range)
     parts = (last - first) / checks.positive("floor", floor)
     checks.number_of_cells(
         f"floor is {floor:.6g} of {first:g} to {last:g}", math.ceil(min(parts, 1e18))
     )
-    parts = 2 ** max(0, math.ceil(math.log2(parts)))
-    cases = cases_of([structure], excitation, scale_range, vertical, scale_vertical)
-
-    def factors(begin: int, end: int) -> NDArray[np.float64]:
-        step = (last - first) / parts
-        return np.asarray(first + step * np.arange(begin, min(end, parts + 1)))
-
-    overturned: list[bool] = []
-    for begin in range(0, parts + 1, FACTORS_PER_CALL):
-        grid = factors(begin, begin + FACTORS_PER_CALL)
-        overturned += outcomes_of_factors(cases, np.zeros(grid.size, np.int64), grid)[1].tolist()
-        start = overturned.index(True) if True in overturned else len(overturned)
-        if False in overturned[start:]:
-            break
-    interval = None
-    if start < len(overturned):
-        end = start + (overturned[start:] + [False]).index(False)
-        grid = factors(max(start - 1, 0), end + 1)
-        interval = intervals_on(cases, [grid], floor, 0)[0][0]
-    return LowestOverturning(
-        scale_range=(first, last),
-        floor=floor,
-        bracket=interval.lower if interval else None,
-        upper=interval.upper if interval else None,
-        unit_acceleration=excitation.peak_acceleration,
-    )
+    return _Grid(first, last, 2 ** max(0, math.ceil(math.log2(parts))) + 1)
 
 
 def overturning_spectrum(

@@ -28,7 +28,7 @@ MIN_INTERVAL = 1.0 / 1024.0
 """Normalised by the resolution: narrower intervals remain inside a bracket."""
 
 BRACKET = 1e-10
-"""Width of the brackets, normalised by the larger end of the range."""
+"""Width of the brackets, normalised by their larger end."""
 
 Factors = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -289,11 +289,11 @@ def intervals_on(
     (at,) = np.nonzero((case_index[1:] == case_index[:-1]) & (labels[1:] != labels[:-1]))
     case, low, high = case_index[at], factors[at], factors[at + 1]
     below, above = labels[at], labels[at + 1]
-    width = BRACKET * np.array([np.abs(grid[[0, -1]]).max() for grid in grids])
     brackets: list[tuple[Any, ...]] = []
     while True:
         middle = 0.5 * (low + high)
-        is_open = (high - low > width[case]) & (low < middle) & (middle < high)
+        width = BRACKET * np.maximum(np.abs(low), np.abs(high))
+        is_open = (high - low > width) & (low < middle) & (middle < high)
         inside = np.full(case.size, SURVIVES)
         if is_open.any():
             inside[is_open] = label(case[is_open], middle[is_open])
