@@ -29,8 +29,7 @@ reproduce: | $(UV) ## compute every result, check every claim, compile article a
 unlock: | $(UV) ## after a killed run: let the next run begin
 	@$(RUN) python -m snakemake --unlock
 
-check: | $(UV) ## without a run: checksums, and every claim judged again from the published tables
-	@sha256sum --quiet --check docs/SHA256SUMS
+check: | $(UV) ## without a run: checksums, parameters, verdicts, pages and certificates of what is published
 	@$(RUN) python -m documents.check
 
 audit: | $(UV) ## without a run: recompute what README says by one file, from the equations

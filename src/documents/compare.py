@@ -7,6 +7,7 @@ from typing import Any
 
 import pandas as pd
 
+from replication.sources import checksums
 from replication.step import log_to, publish
 
 REFERENCE = Path("tests/reference")
@@ -87,7 +88,11 @@ if __name__ == "__main__":
         # Under the published config every table has to be compared.
         table["required"] = settings == json.loads(json.dumps(snakemake.params.settings))
         texts = {snakemake.output.table: table.to_csv(index=False)}
-        for name in ("rules", "settings"):
-            text = json.dumps(snakemake.params[name], indent=1, sort_keys=True, ensure_ascii=False)
+        rules = {
+            name: rule | {"sums": checksums(rule["tables"])}
+            for name, rule in snakemake.params.rules.items()
+        }
+        for name, content in {"rules": rules, "settings": snakemake.params.settings}.items():
+            text = json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False)
             texts[snakemake.output[name]] = text + "\n"
         publish(snakemake, texts)

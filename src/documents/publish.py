@@ -12,6 +12,7 @@ from pathlib import Path
 from documents.check import findings
 from replication.config import read_config
 from replication.sections import Paper
+from replication.sources import checksums
 from replication.step import findings_text
 from replication.verdicts import unexpected
 
@@ -67,6 +68,12 @@ def refuse(paths: Iterable[Path]) -> None:
             "results/ is not up to date with this tree: make reproduce (snakemake -n says why)"
         )
     rules = json.loads(Path("results/rules.json").read_text("utf-8"))
+    for rule in rules.values():
+        for path, digest in checksums(rule["tables"]).items():
+            if digest != rule["sums"][path]:
+                raise SystemExit(
+                    f"{path} is not the table that the run wrote. Remove it, then make reproduce"
+                )
     for name, results in findings(rules, Path("results/tables")).items():
         path = Path(f"results/findings/{name}.json")
         if findings_text(results, findings) != path.read_text("utf-8"):
