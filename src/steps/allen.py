@@ -8,16 +8,12 @@ import pandas as pd
 
 from replication.step import check, grid, run, value
 from steps.shared import plain
+from steps.shared.cases import column_of, pulse_on
 from steps.shared.linear import simulate_linear_exact
 from topheavy import Column, Pulse, RockingFrame, judge, read_record, simulate
 from topheavy.bodies.massless_columns import SIMPLIFICATIONS, simplified
 
 AGREE = 1e-6  # of α, between solvers
-
-
-def column_of(degrees):
-    alpha = math.radians(degrees)
-    return Column(math.sin(alpha), math.cos(alpha))
 
 
 def models_of(frame):
@@ -63,11 +59,10 @@ def errors(settings):
         cells = []
         for degrees in settings["slendernesses"]:
             column = column_of(degrees)
-            omega = pulse["frequency_ratio"] * column.frequency_parameter
             models = models_of(RockingFrame(column, gamma))
             shown = models if pulse == first else {name: models[name] for name in ("exact", "all")}
             for ratio in grid(settings["amplitudes"]):
-                motion = Pulse(pulse["shape"], ratio * column.uplift_acceleration, omega)
+                motion = pulse_on(column, **pulse, amplitude=ratio)
                 endings = {name: judge(block, motion) for name, block in shown.items()}
                 exact = endings.pop("exact")
                 cells += [
@@ -94,17 +89,18 @@ def errors(settings):
 
 def outcomes(settings):
     """Return which pulses overturn the exact frame, the linearised one and the whole model."""
-    frame = RockingFrame(column_of(settings["slenderness"]), settings["mass_ratio"])
+    column = column_of(settings["slenderness"])
+    frame = RockingFrame(column, settings["mass_ratio"])
     models = {
         name: block for name, block in models_of(frame).items() if not name.startswith("massless")
     }
-    level, p = frame.uplift_acceleration, frame.column.frequency_parameter
     rows = []
-    for omega in grid(settings["frequency_ratios"]):
-        for amplitude in grid(settings["amplitudes"]):
-            pulse = Pulse(settings["shape"], amplitude * level, omega * p)
-            fell = {name: int(judge(block, pulse).overturned) for name, block in models.items()}
-            rows.append({"frequency_ratio": omega, "amplitude_over_uplift": amplitude} | fell)
+    for ratio, amplitude in product(
+        grid(settings["frequency_ratios"]), grid(settings["amplitudes"])
+    ):
+        pulse = pulse_on(column, settings["shape"], ratio, amplitude)
+        fell = {name: int(judge(block, pulse).overturned) for name, block in models.items()}
+        rows.append({"frequency_ratio": ratio, "amplitude_over_uplift": amplitude} | fell)
     return rows
 
 

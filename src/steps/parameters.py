@@ -9,18 +9,13 @@ from derivation.mechanics import RECTANGULAR_OF_TWO, potential_energy
 from derivation.notation import POSITIVE, R, alpha, g, gamma, m_c
 from replication.step import check, run, truth, value
 from steps.shared import plain
-from topheavy import Column, FixedMassColumn, Pulse, RockingFrame, lowest_overturning
+from steps.shared.cases import column_of, lowest
+from topheavy import Column, FixedMassColumn, Pulse, RockingFrame
 from topheavy.bodies.moment_rotation import restoring_moment
 
 ROUNDING = 1e-12  # of m_c g R
 DIGITS = 1e-8  # of a number in a table
-FLOOR, HIGHEST = 1e-3, 12.0  # of the minimum overturning acceleration, over the uplift acceleration
 ASIDE = 1e-6  # of a minimum, to either side
-
-
-def column_of(degrees):
-    slope = math.radians(degrees)
-    return Column(math.sin(slope), math.cos(slope))
 
 
 def moment_by_energy(mass_ratio, slenderness, rotations):
@@ -34,11 +29,8 @@ def moment_by_energy(mass_ratio, slenderness, rotations):
 
 def minimum(frame, shape, period):
     """Return the minimum overturning acceleration of a pulse, g, by both solvers."""
-    level = frame.uplift_acceleration
     pulse = Pulse(shape, 1.0, 2 * math.pi / period)
-    low, high = lowest_overturning(
-        frame, pulse, (level, HIGHEST * level), floor=FLOOR * level
-    ).bracket
+    low, high = lowest(frame, pulse).bracket
     sides = [low * (1 - ASIDE), high * (1 + ASIDE)]
     outcomes = [plain.judge(frame, pulse.scaled(side)).overturned for side in sides]
     check(

@@ -7,7 +7,8 @@ from typing import Any
 import pandas as pd
 
 from replication.step import run, truth
-from steps.shared.spectrum import FRAME, column_of, line
+from steps.shared.cases import column_of
+from steps.shared.spectrum import FRAME, line
 from topheavy import Column, Pulse, RockingFrame
 from topheavy.bodies.structures import Structure
 from topheavy.proven import certified, checking, survives_below

@@ -7,12 +7,11 @@ from derivation.mechanics import cap_motion
 from derivation.notation import NEGATIVE, POSITIVE, acceleration, is_identically_zero, read
 from derivation.printed import EQUATIONS, rectangular_column
 from replication.step import check, power_above, run, truth
+from steps.shared.cases import cap_of, pulse_on
 from steps.shared.three_bodies import simulate_three_bodies
 from topheavy import (
     STANDARD_GRAVITY,
-    Cap,
     Column,
-    Pulse,
     RockingBlock,
     RockingFrame,
     simulate,
@@ -29,13 +28,6 @@ CLOSE = 1e-8  # of a number that two formulas give
 SMALLEST = 1e-3  # of α: forces are compared beyond this rotation, away from impacts
 SMALLEST_BOUNCE = 1e-5  # of p̂ α: the last bounces before rest, which both cut off, are left out
 STEP_ASIDE = 1e-6  # of a threshold, to either side
-
-
-def pulse_on(column, shape, frequency_ratio, amplitude):
-    """Return a pulse from ω/p and its amplitude over g tan α of the column."""
-    return Pulse(
-        shape, amplitude * column.uplift_acceleration, frequency_ratio * column.frequency_parameter
-    )
 
 
 # The frame as three bodies ------------------------------------------------------------------------
@@ -69,9 +61,7 @@ def three_bodies(frame, cap, pulse, duration, samples):
     ratios = bodies.velocity_ratios[nearest]
 
     ground, weight = pulse.excitation(times), 2.0 * (1.0 + frame.mass_ratio) * STANDARD_GRAVITY
-    closed = forces_at(
-        frame, Cap(cap["span"], cap["depth"] / 2.0), block.rotation, block.velocity, ground
-    )
+    closed = forces_at(frame, cap_of(cap), block.rotation, block.velocity, ground)
     closed = np.stack([np.stack([c.horizontal, c.vertical], -1) for c in closed.contacts], -2)
     gap = np.abs(times[:, None] - block.impact_times).min(axis=1, initial=np.inf)
     flying = both & (gap > 1e-3 / p) & (np.abs(block.rotation) > SMALLEST * alpha)

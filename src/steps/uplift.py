@@ -13,6 +13,7 @@ import pandas as pd
 
 from replication.step import check, grid, run, truth
 from steps.shared import plain
+from steps.shared.cases import cap_of, pulse_on
 from steps.shared.histories import history
 from topheavy import Cap, Column, Pulse, RockingFrame, simulate
 from topheavy.forces.frame import base_shear_slope, clamped_forces, largest_forces
@@ -45,14 +46,14 @@ def peaks(
 def compute(settings: dict, column: dict) -> list[dict]:
     """Return the largest forces of each history, and over those of the clamped rigid frame."""
     of = Column(**column)
-    cap = Cap(settings["cap"]["span"], settings["cap"]["depth"] / 2.0)
+    cap = cap_of(settings["cap"])
     pulses = product(settings["shapes"], map(float, grid(settings["frequency_ratios"])))
     cells = [*product(pulses, settings["mass_ratios"], settings["amplitudes"])]
     rows, survivors = [], []
     for (shape, ratio), gamma, amplitude in cells:
         frame = RockingFrame(of, gamma)
         level, slope = frame.uplift_acceleration, base_shear_slope(frame)
-        pulse = Pulse(shape, amplitude * level, ratio * of.frequency_parameter)
+        pulse = pulse_on(of, shape, ratio, amplitude)
         outcome, forces = peaks(frame, cap, pulse, settings["points"])
         clamped = clamped_forces(frame, cap, pulse)
         rows.append(

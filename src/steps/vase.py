@@ -15,6 +15,7 @@ import pandas as pd
 
 from replication.step import check, grid, run, truth, value
 from steps.shared import plain
+from steps.shared.cases import lowest
 from steps.shared.poses import bodies, lying, structures
 from topheavy import (
     STANDARD_GRAVITY,
@@ -24,7 +25,6 @@ from topheavy import (
     MonolithicPortal,
     Pulse,
     RockingFrame,
-    lowest_overturning,
     overturned_by,
     simulate,
 )
@@ -49,20 +49,6 @@ def rivals(column: Column, gammas: Sequence[float]) -> Iterator[tuple[str, float
         if gamma > 0.0:
             yield FIXED, gamma, FixedMassColumn(column, gamma)
             yield FREE, gamma, RockingFrame(column, gamma)
-
-
-def lowest(
-    structure: Structure, pulse: Pulse, highest: float, floor: float
-) -> LowestOverturning | None:
-    """Return the lowest interval that overturns a structure, g; None if none does up to `highest`.
-
-    The pulse has a unit peak. The floor is over the uplift acceleration.
-    """
-    level = structure.block().uplift_acceleration
-    if level >= highest:
-        return None
-    interval = lowest_overturning(structure, pulse, (level, highest), floor=floor * level)
-    return interval if interval.bracket else None
 
 
 def lowest_by_two_floors(

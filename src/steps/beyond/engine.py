@@ -1,6 +1,7 @@
 """Frames in a rigid-body engine: restitution, outcomes near the minimum, and across the plane."""
 
 import math
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -8,14 +9,12 @@ import pandas as pd
 
 from replication.step import check, run, truth
 from steps.beyond.rigid_bodies import Bodies, overturns, rebound
+from steps.shared.cases import HIGHEST, cap_of, lowest, pulse_on
 from topheavy import (
-    Cap,
     Column,
     FixedMassColumn,
-    Pulse,
     RockingFrame,
     judge,
-    overturning_intervals,
     simulate,
 )
 
@@ -24,7 +23,6 @@ NO_REBOUND = 0.2  # coefficient of restitution of a point, below which a contact
 HARD = 0.01  # normalised by 1/p: time constant up to which a contact is hard
 FRICTION = 1.0  # of the contacts of a release
 STEPS_IN_CONTACT = 4  # time steps in the time constant, or in the period of a stiffer contact
-HIGHEST = 40.0  # over g tan α: end of the search for the minimum overturning acceleration
 BELOW = 3  # steps below the minimum in theory: where the first amplitude that overturns is sought
 IN_PLANE, ACROSS = 0.0, 90.0  # degrees
 COLUMN, FIXED, IN_LINE, SLAB = "column", "fixed mass", "two in line", "2 × 2"
@@ -42,9 +40,9 @@ def compute(settings, structures):
 def frames_of(frames, settings, structures):
     """Yield structure, frame and cap beam of an entry of mass ratios by structure."""
     for name, mass_ratios in frames.items():
-        span, depth = settings["caps"][name].values()
         for gamma in mass_ratios:
-            yield name, RockingFrame(Column(**structures[name]), gamma), Cap(span, depth / 2.0)
+            frame = RockingFrame(Column(**structures[name]), gamma)
+            yield name, frame, cap_of(settings["caps"][name])
 
 
 def planar(frame, cap, time_step, **contact):
@@ -134,11 +132,8 @@ def outcomes(settings, structures):
 
 def minimum(frame, kind, column=None):
     """Return the pulse of the minimum in theory; ω is over p of its own or of a given column."""
-    omega = kind["frequency_ratio"] * (column or frame.column).frequency_parameter
-    unit, tan = Pulse(kind["shape"], 1.0, omega), frame.uplift_acceleration
-    ends = (tan, HIGHEST * tan)
-    first, *_ = overturning_intervals(frame, unit, ends, resolution=0.01 * tan, most_impacts=0)
-    return unit.scaled(first.lower[1])
+    pulse = pulse_on(column or frame.column, **kind)
+    return replace(pulse, amplitude=lowest(frame, pulse).factor)
 
 
 def across(settings, structures):
@@ -174,18 +169,18 @@ def across(settings, structures):
 def first(row, changed, settings, structures):
     spec, (name, direction, section, depth, gamma, ratio) = settings["across"], row
     column = Column(**structures[spec["structure"]])
-    span, cap_depth = settings["caps"][spec["structure"]].values()
+    cap = cap_of(settings["caps"][spec["structure"]])
     side = Column(depth * column.half_width, column.half_height)
     kind = {"shape": spec["shape"], "frequency_ratio": ratio}
     alone, theory = minimum(column, kind, column), RockingFrame(column, gamma)
     if name == FIXED or direction == ACROSS:
-        theory = FixedMassColumn(side, gamma, 2.0 * side.half_width, cap_depth)
+        theory = FixedMassColumn(side, gamma, 2.0 * side.half_width, 2.0 * cap.half_depth)
     solver = {"time_step": spec["time_step"], "friction": spec["friction"]} | changed
     bodies = Bodies(
         column,
         side.half_width,
         gamma,
-        Cap(span, 0.5 * cap_depth),
+        cap,
         in_row=1 if name in (COLUMN, FIXED) else 2,
         rows=2 if name == SLAB else 1,
         is_round=section == "round",

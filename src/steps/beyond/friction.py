@@ -6,9 +6,10 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, geometric, grid, run, truth
+from steps.shared.cases import pulse_on
 from steps.shared.histories import history
 from steps.shared.three_bodies import simulate_three_bodies
-from topheavy import Cap, Column, Pulse, RockingFrame, impact_impulses, simulate
+from topheavy import Cap, Column, RockingFrame, impact_impulses, simulate
 from topheavy.forces.contact import forces_at
 
 AGREE = 1e-3  # of tan α: required friction by the closed form and by Newton's and Euler's equations
@@ -31,22 +32,13 @@ def compute(settings, structures):
                 grid(settings["frequency_ratios"]),
                 geometric(settings["amplitudes"]),
             )
-            if (row := required(frame, cap, pulse(column, *place), settings))
+            if (row := required(frame, cap, pulse_on(column, *place), settings))
         ]
         if gamma > 0.0:
             compare(frame, cap, max(survived, key=lambda row: row["required"]), settings)
         rows += [{"bay": bay, "mass_ratio": gamma} | row for row in survived]
     table = pd.DataFrame(rows)
     return {"pulses": table, "by_mass": by_mass(table)}
-
-
-def pulse(column, shape, frequency_ratio, amplitude):
-    """Return a pulse from its shape, ω/p and its amplitude over g tan α."""
-    return Pulse(
-        shape,
-        amplitude * column.uplift_acceleration,
-        frequency_ratio * column.frequency_parameter,
-    )
 
 
 def required(frame, cap, shaking, settings):
@@ -80,7 +72,7 @@ def required(frame, cap, shaking, settings):
 def compare(frame, cap, row, settings):
     """Check the required friction of a pulse against that of three bodies until the pulse ends."""
     place = (row[name] for name in ("shape", "frequency_ratio", "amplitude"))
-    shaking = pulse(frame.column, *place)
+    shaking = pulse_on(frame.column, *place)
     times = np.linspace(0.0, shaking.duration, settings["check_samples"])
     motion = simulate(frame, shaking, samples=times)
     ground = shaking.excitation(times)

@@ -8,9 +8,9 @@ from scipy.special import bdtr, ndtr
 
 from replication.step import check, run, value
 from steps.shared import plain
-from topheavy import Column, Pulse, RockingFrame, judge, overturning_intervals
+from steps.shared.cases import lowest
+from topheavy import Column, Pulse, RockingFrame, judge
 
-HIGHEST, RESOLUTION = 40.0, 0.01  # over g tan α, of the search for minima
 SOLVERS = judge, plain.judge
 
 
@@ -30,7 +30,7 @@ def compute(settings):
         others[f"column, √r {reduction:.0%} lower"] = lower
     rows = []
     for name, other in others.items():
-        low, high = (minimum(block, unit) for block in (alone, other))
+        low, high = (lowest(block, unit).factor for block in (alone, other))
         pulse = unit.scaled(math.sqrt(low * high))
         fell = [solve(block, pulse).overturned for block in (alone, other) for solve in SOLVERS]
         check(fell == [True, True, False, False], f"{name}, {pulse}: overturned {fell}")
@@ -50,14 +50,6 @@ def compute(settings):
                 }
             )
     return pd.DataFrame(rows)
-
-
-def minimum(block, unit):
-    """Return the minimum overturning acceleration, g."""
-    tan = block.uplift_acceleration
-    ends, step = (tan, HIGHEST * tan), RESOLUTION * tan
-    first, *_ = overturning_intervals(block, unit, ends, resolution=step, most_impacts=0)
-    return first.lower[1]
 
 
 def surviving_reduction(block, pulse):

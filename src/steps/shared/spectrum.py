@@ -1,12 +1,12 @@
 """Lines of overturning spectra: all amplitudes at a frequency that overturn a block."""
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import pandas as pd
 
-from topheavy import Column, FactorInterval, Pulse, RockingBlock, RockingFrame
+from steps.shared.cases import column_of, pulse_on
+from topheavy import FactorInterval, Pulse, RockingBlock, RockingFrame
 from topheavy.outcomes.search import intervals_of_many
 
 FRAME, SIZE, RESTITUTION = CHANGES = "frame", "size", "restitution"
@@ -24,12 +24,6 @@ class Line(NamedTuple):
     pulse: Pulse
 
 
-def column_of(slenderness: float) -> Column:
-    """Return the column of R = 1 m with a slenderness in degrees, to the rounding of its sides."""
-    alpha = math.radians(slenderness)
-    return Column(math.sin(alpha), math.cos(alpha))
-
-
 def line(
     change: str, gamma: float, slenderness: float, shape: str, ratio: float, cycles: int = 1
 ) -> Line:
@@ -44,8 +38,7 @@ def line(
         SIZE: frame.with_restitution(alone.restitution),
         RESTITUTION: alone.with_restitution(frame.restitution),
     }[change]
-    omega = ratio * column.frequency_parameter
-    pulse = Pulse(shape, column.uplift_acceleration, omega, cycles=cycles)
+    pulse = pulse_on(column, shape, ratio, cycles=cycles)
     labels = dict(zip(KEYS, (change, gamma, slenderness, shape, ratio), strict=True))
     return Line(labels, block, pulse)
 

@@ -1,0 +1,50 @@
+"""Columns, cap beams, pulses and minima by numbers of the config, as several rules take them."""
+
+import math
+from dataclasses import replace
+
+from topheavy import Cap, Column, LowestOverturning, Pulse, lowest_overturning
+from topheavy.bodies.structures import Structure
+
+HIGHEST, FLOOR = 40.0, 1e-3
+"""Of a search, over the uplift acceleration: its end, and the interval that it cannot miss."""
+
+
+def column_of(degrees: float) -> Column:
+    """Return the column of R = 1 m with a slenderness in degrees, to the rounding of its sides."""
+    slenderness = math.radians(degrees)
+    return Column(math.sin(slenderness), math.cos(slenderness))
+
+
+def cap_of(spec: dict[str, float]) -> Cap:
+    """Return the cap beam of a config entry with span and depth (m)."""
+    return Cap(spec["span"], spec["depth"] / 2.0)
+
+
+def pulse_on(
+    column: Column, shape: str, frequency_ratio: float, amplitude: float = 1.0, cycles: int = 1
+) -> Pulse:
+    """Return a pulse by ω/p and its acceleration amplitude over g tan α of a column."""
+    return Pulse(
+        shape,
+        amplitude * column.uplift_acceleration,
+        frequency_ratio * column.frequency_parameter,
+        cycles=cycles,
+    )
+
+
+def lowest(
+    structure: Structure, pulse: Pulse, highest: float | None = None, floor: float = FLOOR
+) -> LowestOverturning | None:
+    """Return the lowest interval of peak accelerations of a pulse that overturn a structure, g.
+
+    The search begins at uplift and ends at `highest`, g; None if nothing overturns up to there. The
+    floor is over the uplift acceleration.
+    """
+    level = structure.block().uplift_acceleration
+    end = HIGHEST * level if highest is None else highest
+    if level >= end:
+        return None
+    unit = replace(pulse, amplitude=1.0)
+    interval = lowest_overturning(structure, unit, (level, end), floor=floor * level)
+    return interval if interval.bracket else None
