@@ -1,5 +1,6 @@
 """The model of Allen et al. beside the exact frame: histories and error of the peak."""
 
+from drawing import gamma
 from palette import MODEL
 
 from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
@@ -63,7 +64,7 @@ def errors(axis, table):
     axis.legend(loc="upper right", labelspacing=0.2)
 
 
-def draw(allen_histories, allen_errors):
+def draw(allen_histories, allen_errors, config):
     figure, axes = sheet(DOUBLE, 56, "ace;bde", width_ratios=(1, 1, 1.15), height_ratios=(0.45, 1))
     for (above, below), motion in zip((("a", "b"), ("c", "d")), MOTIONS, strict=True):
         history(axes[above], axes[below], allen_histories[allen_histories.motion == motion])
@@ -72,6 +73,7 @@ def draw(allen_histories, allen_errors):
     note(axes["b"], "exact", (0.5, 0.16), xycoords="axes fraction")
     note(axes["b"], "Allen et al.", (0.5, 0.05), xycoords="axes fraction", color=MODEL)
     errors(axes["e"], allen_errors)
-    titles = [*MOTIONS.values(), "Median error, slender columns"]
+    ratio = gamma(config["allen"]["mass_ratio"])
+    titles = [*(f"{words}, {ratio}" for words in MOTIONS.values()), r"Median error over $\gamma$"]
     letter([axes["a"], axes["c"], axes["e"]], titles)
     return figure

@@ -118,9 +118,8 @@ def rotation(axis, at_rest, moved):
 
 
 def forces(axis, cap, columns):
-    """Draw the cap beam and the forces on it, to scale, over their values."""
+    """Draw the cap beam and the forces on it, to scale."""
     draw_body(axis, cap, facecolor=CAP)
-    values = []
     for name, (place, size) in forces_on_cap(cap, columns).items():
         text, aside = LABELS[name]
         start = tuple(place)
@@ -135,12 +134,9 @@ def forces(axis, cap, columns):
                 start = (start[0] + SET_OFF / 2, start[1] - SET_OFF)
             free = arrow(axis, start, (RIGHT * size, 0.0))
         note(axis, text, free, xytext=aside, ha="center", color=FORCE, **ASIDE)
-        values.append(f"{text} = {abs(size):.3f}")
     shaken = f"$\\ddot{{u}}_g$ = {GROUND:g}$\\,g$".replace("-", "−")
-    words = [f"At a turning point under {shaken}, in $m_\\mathrm{{b}}g$:"]
-    words += ["    ".join(values[first : first + 2]) for first in (0, 2, 4)]
-    words += [f"Arrows to scale, horizontal ones $\\times$ {RIGHT / UP:g}."]
-    note(axis, "\n".join(words), (cap[:, 0].mean(), 0.62), ha="center", color=GREY, linespacing=1.5)
+    words = f"{shaken}; horizontal arrows $\\times$ {RIGHT / UP:g}"
+    note(axis, words, (cap[:, 0].mean(), 1.1), ha="center", color=GREY)
 
 
 def draw():

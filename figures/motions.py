@@ -1,22 +1,19 @@
-"""Probability of overturning, peak rotation and gain under models of ground motion"""
-
-import math
+"""Probability of overturning against the peak ground velocity, and gain of the frame by model"""
 
 from drawing import gamma
 from palette import ALONE, EQUAL, FIXED
 
-from replication.drawing import DARKEST, DOUBLE, GREY, INK, PAPER, letter, note, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
 
 FAMILIES = ("near-fault", "broadband")
 DASHES = ("-", "--")  # of the sets of a family, by earthquake
-STRUCTURES = {  # of the first two graphs: colour, place of the words
-    "fixed mass": (FIXED, (1.15, 0.28)),
-    "column": (ALONE, (1.15, 0.17)),
-    "frame": (EQUAL, (1.15, 0.06)),
+STRUCTURES = {  # colour, place of the words
+    "fixed mass": (FIXED, (1.0, 0.28)),
+    "column": (ALONE, (1.0, 0.17)),
+    "frame": (EQUAL, (1.0, 0.06)),
 }
-SHADES = {0.0: ALONE, 1.0: EQUAL, math.inf: DARKEST}  # a beam as heavy as both columns, and heavier
-COLOURS = {"fixed": FIXED, "column": ALONE, "frame": EQUAL}
 MARKERS = "^osDv"  # of columns of different size
+APART = 0.25  # rows of a model, between columns of different size
 VELOCITIES = (0.5, 1.0, 2.0)
 
 
@@ -33,26 +30,27 @@ def fragility(axis, curves, mass_ratio):
     axis.set(yticks=(0, 0.5, 1), xlabel="Peak ground velocity (m/s)")
 
 
-def rotation(axis, rows):
-    for place, (ratio, colour) in enumerate(SHADES.items()):
-        peaks = rows[rows.mass_ratio == ratio].groupby("velocity").median_peak
-        low, high = peaks.min().clip(upper=2.0), peaks.max().clip(upper=2.0)
-        axis.fill_between(low.index, low, high, color=colour, alpha=0.35, linewidth=0)
-        for end in (low, high):
-            axis.plot(end.index, end, color=colour, linewidth=0.8)
-        note(axis, gamma(ratio), (0.22, 0.93 - 0.1 * place), color=colour)
-    axis.set(xlim=(0.2, 1.0), ylim=(0, 1), yticks=(0, 0.5, 1), xlabel="Peak ground velocity (m/s)")
-    axis.set_ylabel(r"Median peak $|\theta|/\alpha$ (–)")
+def gain(axis, rows, markers, sizes):
+    """Draw the gain by model, with its interval, one marker for each size of the columns."""
+    models = list(dict.fromkeys(rows.model))[::-1]
+    for number, (structure, marker) in enumerate(markers.items()):
+        of = rows[rows.structure == structure]
+        places = [models.index(one) + APART * (1 - number) for one in of.model]
+        axis.hlines(places, 100 * of.gain_low, 100 * of.gain_high, color=GREY, linewidth=0.8)
+        label = f"{2 * sizes[structure]['half_height']:g} m"
+        look = {"color": INK, "markersize": 3.5, "linestyle": "", "label": label}
+        axis.plot(100 * of.gain, places, marker, **look)
+    axis.legend(loc="center right", title="Columns of", title_fontsize=7.5)
+    axis.set_yticks(range(len(models)), models)
+    axis.tick_params(axis="y", length=0)
+    axis.set(xlim=(0, 75), ylim=(-0.6, len(models) - 0.4))
+    axis.set_xlabel("Gain in the median overturning PGV (%)")
 
 
-def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
-    inputs, sizes = config["motions"], config["structures"]
-    mass_ratio, markers = (
-        inputs["mass_ratio"],
-        dict(zip(inputs["structures"], MARKERS, strict=False)),
-    )
-    heavier = motions_gains.mass_ratio[motions_gains.mass_ratio < math.inf].max()
-    figure, axes = sheet(DOUBLE, 103, "aabbcc;dddeee", height_ratios=(1, 1.4))
+def draw(motions_fragility, motions_gains, config):
+    inputs = config["motions"]
+    mass_ratio = inputs["mass_ratio"]
+    figure, axes = sheet(DOUBLE, 66, "abc", width_ratios=(1, 1, 1.35))
     curves = motions_fragility[motions_fragility.column == inputs["structure"]]
     for axis, name in zip((axes["a"], axes["b"]), FAMILIES, strict=True):
         of = curves[curves.model.str.startswith(name)]
@@ -64,32 +62,9 @@ def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
     for dash, model in zip(DASHES, sorted(of.model.unique()), strict=True):
         axes["b"].plot([], [], dash, color=INK, linewidth=1.0, label=model.split(", ")[1])
     axes["b"].legend(loc="lower right", handlelength=1.8, borderaxespad=0.1)
-    rotation(axes["c"], motions_rotations)
-    table = motions.iloc[::-1].reset_index(drop=True)
-    for place, row in table.iterrows():
-        for name, colour in COLOURS.items():
-            ends = 100 * row[f"{name}_low"], 100 * row[f"{name}_high"]
-            axes["d"].hlines(place, *ends, color=colour)
-            axes["d"].plot(100 * row[name], place, "o", color=colour, markersize=3.5)
-        for gain in motions_gains[motions_gains.model == row.model].itertuples():
-            if gain.mass_ratio in (mass_ratio, heavier):
-                face = INK if gain.mass_ratio == mass_ratio else PAPER
-                mark = {"marker": markers[gain.structure], "color": INK, "markerfacecolor": face}
-                axes["e"].plot(100 * gain.gain, place, markersize=4, linestyle="", **mark)
-    for name, marker in markers.items():
-        words = f"{2 * sizes[name]['half_height']:g} m"
-        axes["e"].plot([], [], marker, color=INK, markersize=4, label=words)
-    hollow = {"markerfacecolor": PAPER, "markersize": 4, "label": gamma(heavier)}
-    axes["e"].plot([], [], "o", color=INK, **hollow)
-    axes["e"].legend(loc="lower right")
-    axes["d"].set(xlim=(0, 100), xlabel="Probability of overturning (%)")
-    axes["e"].set(xlim=(0, 85), xlabel="Gain in the median overturning velocity (%)")
-    axes["d"].set_yticks(range(len(table)), table.model)
-    axes["e"].set_yticks(range(len(table)), [""] * len(table))
-    for axis in (axes["d"], axes["e"]):
-        axis.set_ylim(-0.6, len(table) - 0.4)
-        axis.tick_params(axis="y", length=0)
+    markers = dict(zip(inputs["structures"], MARKERS, strict=False))
+    of = motions_gains[motions_gains.mass_ratio == mass_ratio]
+    gain(axes["c"], of, markers, config["structures"])
     titles = [f"{name.capitalize()} motions" for name in FAMILIES]
-    titles += ["Peak rotation", f"Models, at {inputs['velocity']:g} m/s"]
-    letter(list(axes.values()), [*titles, "Frame over column"])
+    letter(list(axes.values()), [*titles, f"Frame over column, {gamma(mass_ratio)}"])
     return figure

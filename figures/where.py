@@ -10,9 +10,9 @@ from palette import CAUSED, OVERTURNED, OVERTURNS, PREVENTED, SURVIVES
 
 from replication.drawing import DOUBLE, GREY, INK, PALE, PAPER, letter, note, shades, sheet
 
-WINDOW = (0.5, 10.0, 1.0, 16.0)  # ω/p and a/(g tan α): the plane whose shares are given
+WINDOW = (0.5, 6.0, 1.0, 16.0)  # ω/p and a/(g tan α) of the picture
 STRUCTURES = dict(zip((0.0, math.inf), shades(2), strict=True))  # colours, by γ
-LEADER = {"arrowstyle": "-", "color": CAUSED, "linewidth": 0.7, "shrinkA": 1, "shrinkB": 0}
+LEADER = {"arrowstyle": "-", "linewidth": 0.7, "shrinkA": 1, "shrinkB": 0}
 
 
 def outlines(cells):
@@ -63,20 +63,21 @@ def plane(axis, spectra, areas, example):
     for ratio, colour in STRUCTURES.items():
         for one in found[ratio][:2]:
             axis.plot(*one.T, color=colour, linewidth=1.1)
-    axis.set(xlim=WINDOW[:2], ylim=WINDOW[2:], xticks=(1, 2, 4, 6, 8, 10), yticks=(1, 4, 8, 12, 16))
+    axis.set(xlim=WINDOW[:2], ylim=WINDOW[2:], xticks=(1, 2, 3, 4, 5, 6), yticks=(1, 4, 8, 12, 16))
     axis.set(xlabel=r"Frequency, $\omega/p$ (–)", ylabel=r"Amplitude, $a/(g\,\tan\alpha)$ (–)")
     place = (example.frequency_ratio, example.amplitude_over_uplift)
     axis.plot(*place, "o", color=INK, markerfacecolor=PAPER, markersize=7.5, zorder=4)
     note(axis, "1", place, ha="center", va="center_baseline", fontsize=7, zorder=5)
     (here,) = beside(areas, example).itertuples()
     note(axis, "both overturn", (0.7, 13.0), color=OVERTURNS)
-    note(axis, "both survive", (7.0, 13.0), color=SURVIVES)
+    note(axis, "both survive", (4.6, 14.0), color=SURVIVES)
     words = f"overturning caused\non {100 * here.caused:.1f} % of the map"
-    at = {"xytext": (4.7, 10.9), "color": CAUSED, "arrowprops": LEADER}
+    at = {"xytext": (3.6, 12.5), "color": CAUSED, "arrowprops": LEADER | {"color": CAUSED}}
     note(axis, words, (3.2, 8.1), **at)
     words = f"overturning prevented\non {100 * here.prevented:.1f} % of the map"
-    note(axis, words, (5.2, 6.4), color=INK)
-    note(axis, "column", (4.55, 3.2), color=STRUCTURES[0.0])
+    at = {"xytext": (4.3, 10.0), "color": INK, "arrowprops": LEADER | {"color": INK}}
+    note(axis, words, (4.5, 7.4), **at)
+    note(axis, "column", (4.7, 3.4), color=STRUCTURES[0.0])
     words = "frame,\n$\\gamma\\to\\infty$"
     note(axis, words, (3.75, 4.9), ha="right", color=STRUCTURES[math.inf])
 

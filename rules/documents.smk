@@ -6,6 +6,7 @@ read_claims(
 )  # before any job: a misspelt key, a number that is no key
 BEYOND = [
     "motions",
+    "motions_models",
     "break_even",
     "friction",
     "engine",
@@ -51,7 +52,7 @@ for part in ["paper", "beyond"]:
             config={
                 name: PAPER[name]
                 for name in (
-                    ["structures", *BEYOND] if part == "beyond" else ["spectra"]
+                    ["structures", "motions"] if part == "beyond" else ["spectra", "allen"]
                 )
             },
         message:
