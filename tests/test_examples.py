@@ -5,6 +5,7 @@ import importlib
 import inspect
 import pkgutil
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -19,7 +20,9 @@ PUBLIC = [name for name in th.__all__ if callable(getattr(th, name))]
 def test_examples_are_true(name, tmp_path, monkeypatch):
     (tmp_path / "data").symlink_to(ROOT / "data")  # they read data/records, and write files
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
     found = doctest.testmod(importlib.import_module(name), extraglobs={"th": th, "np": np})
+    plt.close("all")
     assert found.failed == 0
 
 
@@ -28,7 +31,7 @@ def test_public_name_has_an_example(name):
     assert ">>> " in inspect.getdoc(getattr(th, name))
 
 
-@pytest.mark.parametrize("package", [th, th.proven])
+@pytest.mark.parametrize("package", [th, th.plot, th.proven])
 def test_names_are_one_list(package):
     assert dir(package) == sorted(package.__all__)
     assert all(hasattr(package, name) for name in package.__all__)

@@ -14,7 +14,7 @@ import topheavy
 from figures import palette
 from replication.drawing import PAPER, shades
 from tests.cases import COLUMN, FRAME, ROOT
-from topheavy import FixedMassColumn, MonolithicPortal, Pulse, Record, plot
+from topheavy import Cap, FixedMassColumn, MonolithicPortal, Pulse, Record, plot
 
 
 @pytest.fixture(autouse=True)
@@ -35,7 +35,7 @@ def test_history_is_in_parts_of_alpha_with_its_impacts():
 
 def test_map_has_the_peak_at_its_frequency_and_amplitude():
     found = topheavy.overturning_map(FRAME, "one-sine", [2.0, 4.0, 8.0], [0.1, 0.3])
-    axes = plot.spectrum(found)
+    axes = plot.map(found)
     shown = axes.collections[0].get_array().reshape(2, 3)
     assert shown[1, 2] == found.peak_rotation.to_numpy()[2, 1] / FRAME.slenderness > 0
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("Angular frequency (rad/s)", "Amplitude (g)")
@@ -43,7 +43,7 @@ def test_map_has_the_peak_at_its_frequency_and_amplitude():
 
 def test_map_of_a_record_has_its_own_axes():
     shaking = Record(0.1, [0.0, 0.3, -0.2, 0.1])
-    axes = plot.spectrum(topheavy.overturning_map(COLUMN, shaking, [1, 2], [0.1, 0.2]))
+    axes = plot.map(topheavy.overturning_map(COLUMN, shaking, [1, 2], [0.1, 0.2]))
     assert axes.get_xlabel() == "Size R of the column (m)"
     assert axes.get_ylabel() == "Peak ground acceleration (g)"
 
@@ -60,6 +60,84 @@ def test_fragility_has_points_in_bands_of_exact_intervals():
     for end in (found.curves.probability_low, found.curves.probability_high):
         assert set(zip(found.curves.level.values, end[0].values, strict=True)) <= corners
     assert axes.get_xlabel() == "PGA (g)"
+
+
+PULSE, SHAKING = Pulse("one-sine", 0.4, 6.0), Record(0.1, [0.0, 0.3, -0.2, 0.1])
+RESULTS = {
+    "history": lambda: topheavy.simulate(FRAME, PULSE),
+    "map": lambda: topheavy.overturning_map(FRAME, "one-sine", [2.0, 4.0], [0.1, 0.3]),
+    "spectrum": lambda: topheavy.overturning_spectrum([COLUMN, FRAME], "one-sine", [0.7, 0.3]),
+    "rotations": lambda: topheavy.peak_rotations([COLUMN, FRAME], PULSE, [0.3, 0.2, 9.0]),
+    "capacity": lambda: topheavy.capacity(FRAME, PULSE),
+    "fragility": lambda: topheavy.fragility(COLUMN, [PULSE], [0.5, 1.0], max_acceleration),
+    "structure": lambda: FRAME,
+}
+OTHERS = {
+    "contact_forces": lambda: topheavy.contact_forces(
+        FRAME, Cap(5, 0.4), RESULTS["history"](), PULSE
+    ),
+    "overturned_by": lambda: topheavy.overturned_by(FRAME, PULSE, [1.0, 2.0]),
+    "a number": lambda: 3.0,
+}
+
+
+def max_acceleration(motion):
+    return motion.peak_acceleration
+
+
+@pytest.mark.parametrize("function", plot.__all__)
+@pytest.mark.parametrize("result", RESULTS | OTHERS)
+def test_each_result_has_one_plot(function, result):
+    value = (RESULTS | OTHERS)[result]()
+    extra = [FRAME] if function == "history" else []
+    if function == result:
+        axes = getattr(plot, function)(value, *extra)
+        assert axes.get_xlabel()
+        assert axes.get_ylabel()
+        assert getattr(plot, function)(value, *extra, axes=axes) is axes
+    else:
+        hint = f"; plot.{result} draws this one" if result in set(RESULTS) - {"structure"} else ""
+        says = "shown|structure is" if function == "structure" else f"expected the .*{hint}$"
+        with pytest.raises(ValueError, match=says):
+            getattr(plot, function)(value, *extra)
+
+
+@pytest.mark.parametrize("function", plot.__all__)
+def test_what_is_no_axes_is_refused(function):
+    arguments = [RESULTS[function](), *([FRAME] if function == "history" else [])]
+    with pytest.raises(ValueError, match="expected Axes of Matplotlib"):
+        getattr(plot, function)(*arguments, axes=np.array([1]))
+
+
+def test_spectrum_tells_the_modes_apart_and_ascends():
+    both = [COLUMN, FRAME]
+    minima = topheavy.overturning_spectrum(both, "one-sine", [2.0, 0.3], highest=80.0)
+    axes = plot.spectrum(minima)
+    line, after, without = axes.lines[:3]
+    assert line.get_xdata().tolist() == [0.3, 2.0]
+    assert line.get_ydata().tolist() == minima.acceleration[0].to_numpy()[::-1].tolist()
+    assert np.isfinite(after.get_ydata()).tolist() == [False, True]
+    assert np.isfinite(without.get_ydata()).tolist() == [True, False]
+    assert after.get_markerfacecolor() == line.get_color() != without.get_markerfacecolor()
+    names = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert names == ["Column 1", "RockingFrame 2", *plot.MODES]
+
+
+def test_rotations_have_a_tick_for_each_factor_that_overturns():
+    peaks = topheavy.peak_rotations(COLUMN, PULSE, [9.0, 0.5, 0.6])
+    curve, ticks = plot.rotations(peaks).lines
+    known = peaks.to_numpy()[1:] / COLUMN.slenderness
+    assert curve.get_xdata()[:2].tolist() == known.tolist()
+    assert curve.get_ydata() == pytest.approx([0.2, 0.24, 3.6])
+    assert ticks.get_ydata() == pytest.approx([3.6])
+
+
+def test_capacity_is_where_enough_of_the_factors_overturn():
+    result = topheavy.capacity(FRAME, PULSE)
+    shares, limit, at = plot.capacity(result).lines
+    place = result.factors.tolist().index(result.factor)
+    assert shares.get_ydata()[place - 1] < limit.get_ydata()[0] <= shares.get_ydata()[place]
+    assert at.get_xdata()[0] == result.factor
 
 
 @pytest.mark.parametrize(

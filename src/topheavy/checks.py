@@ -4,6 +4,7 @@ import math
 import sys
 import warnings
 from contextlib import suppress
+from dataclasses import fields
 from os.path import dirname
 from reprlib import Repr
 from typing import Any
@@ -14,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 MAX_ACCELERATION = 1e6
 """Upper limit of a ground acceleration, g: the square of a larger one might overflow."""
 
-MAX_BY_UNIT = {"m": 1e9, "s": 1e9, "rad/s": 1e9}
+MAX_BY_UNIT = {"m": 1e9, "s": 1e9, "rad": 1e9, "rad/s": 1e9}
 """Upper limits by unit: powers of a larger number might overflow."""
 
 MAX_CELLS = 100_000_000
@@ -46,6 +47,13 @@ def warn(message: str) -> None:
     while frame.f_back and frame.f_code.co_filename.startswith((_HERE, "<string>")):
         frame, level = frame.f_back, level + 1
     warnings.warn(message, stacklevel=level)
+
+
+def repr_of_fields(instance: Any) -> str:
+    """Return the repr of a dataclass, with only the beginning and end of each long field."""
+    names = (field.name for field in fields(instance))
+    values = (f"{name}={short_repr(getattr(instance, name))}" for name in names)
+    return f"{type(instance).__name__}({', '.join(values)})"
 
 
 def number(name: str, value: Any) -> float:
@@ -91,7 +99,9 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return np.array(array, dtype=float)
 
 
-def axis_values(name: str, values: ArrayLike, *, zero_allowed: bool) -> NDArray[np.float64]:
+def axis_values(
+    name: str, values: ArrayLike, unit: str = "", *, zero_allowed: bool = False
+) -> NDArray[np.float64]:
     """Return `values` as an axis of finite floats above (or from) zero, or raise ValueError."""
     array = np.atleast_1d(numbers(name, values))
     if array.ndim != 1 or array.size == 0:
@@ -101,6 +111,7 @@ def axis_values(name: str, values: ArrayLike, *, zero_allowed: bool) -> NDArray[
     if (array < 0.0).any() or not (zero_allowed or array.all()):
         sign = "negative" if zero_allowed else "zero or negative"
         raise ValueError(f"{name} goes down to {array.min():.6g}; it cannot be {sign}")
+    within_reason(name, array.max(), unit)
     return array
 
 
@@ -109,7 +120,7 @@ def positive(name: str, value: Any, unit: str = "") -> float:
     number = finite(name, value)
     if number <= 0.0:
         raise ValueError(f"{name} is {_with_unit(number, unit)}; expected more than zero")
-    return _within_reason(name, number, unit)
+    return within_reason(name, number, unit)
 
 
 def not_negative(name: str, value: Any, unit: str = "") -> float:
@@ -117,7 +128,7 @@ def not_negative(name: str, value: Any, unit: str = "") -> float:
     number = finite(name, value)
     if number < 0.0:
         raise ValueError(f"{name} is {_with_unit(number, unit)}; expected zero or more")
-    return _within_reason(name, number, unit)
+    return within_reason(name, number, unit)
 
 
 def number_of_cells(name: str, *sizes: int) -> None:
@@ -167,12 +178,12 @@ def within(name: str, value: Any, low: float, high: float) -> float:
     return result
 
 
-def whole(name: str, value: Any, least: int) -> int:
-    """Return `value` as an int from `least` on, of Python or NumPy, or raise ValueError."""
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
-        raise ValueError(f"{name} is {short_repr(value)}; expected a whole number from {least} on")
-    if value < least:
-        raise ValueError(f"{name} is {value}; expected a whole number from {least} on")
+def whole(name: str, value: Any, least: int, most: float = math.inf) -> int:
+    """Return `value` as an int from `least` to `most`, or raise ValueError."""
+    number = finite(name, value)
+    if number != int(number) or not least <= number <= most:
+        end = "on" if most == math.inf else f"to {most}"
+        raise ValueError(f"{name} is {value}; expected a whole number from {least} {end}")
     return int(value)
 
 
@@ -205,8 +216,10 @@ def fraction(name: str, value: Any) -> float:
     return number
 
 
-def _within_reason(name: str, number: float, unit: str) -> float:
-    if number > (most := MAX_BY_UNIT.get(unit, math.inf)):
+def within_reason(name: str, value: Any, unit: str) -> float:
+    """Return `value` as a finite float within the limit of its unit, or raise ValueError."""
+    number = finite(name, value)
+    if abs(number) > (most := MAX_BY_UNIT.get(unit, math.inf)):
         raise ValueError(f"{name} is {number:.6g} {unit}; expected at most {most:.0e} {unit}")
     return number
 

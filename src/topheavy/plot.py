@@ -10,18 +10,29 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from topheavy import checks
 from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.bodies.kinematics import outlines
 from topheavy.bodies.response import Response
 from topheavy.bodies.structures import RockingFrame, Structure, as_block
+from topheavy.outcomes.capacity import Capacity
 from topheavy.risk.estimate import Fragility
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
+__all__ = ["capacity", "fragility", "history", "map", "rotations", "spectrum", "structure"]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
 OVERTURNED = "0.75"
 """Grey of the cells that overturn."""
+MODES = {"after an impact (mode 1)": "0.5", "without an impact (mode 2)": "none"}
+"""How the points of a spectrum are filled."""
 MAX_SHOWN = 1.5
 """|θ|/α at which the picture of a history ends."""
 
@@ -39,21 +50,22 @@ def history(
     label : str
         For a legend; by default the outcome.
     """
-    axes = _axes(axes)
-    alpha = as_block(structure).slenderness
+    _check_result("history", response)
+    axes, alpha = _axes(axes), as_block(structure).slenderness
     (line,) = axes.plot(response.time, response.rotation / alpha, label=label or response.outcome)
     shown = response.impact_times[response.impact_times <= response.time[-1]]
     axes.plot(shown, np.zeros(shown.size), "|", color=line.get_color())
     for limit in (-1.0, 1.0):
         axes.axhline(limit, color="0.5", linestyle=":", linewidth=0.8)
     axes.set(xlabel="Time, $t$ (s)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
-    if max(map(abs, axes.get_ylim())) > MAX_SHOWN:
+    if np.abs(axes.get_ylim()).max() > MAX_SHOWN:
         axes.set_ylim(-MAX_SHOWN, MAX_SHOWN)
     return axes
 
 
-def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
+def map(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
     """Draw the peak rotations of a map, normalised by α; cells that overturn are grey."""
+    _check_result("map", outcomes)
     axes = _axes(axes)
     across, up = (outcomes[name] for name in outcomes.peak_rotation.dims)
     peaks = outcomes.peak_rotation.T / outcomes.attrs["slenderness"]
@@ -65,14 +77,84 @@ def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
     axes.set_title(
         outcomes.attrs.get("shape", "") or outcomes.attrs.get("record", ""), fontsize="medium"
     )
-    for side, axis in (("x", across), ("y", up)):
-        name = axis.attrs.get("long_name", axis.name.replace("_", " "))
-        axes.set(**{f"{side}label": f"{name[0].upper()}{name[1:]} ({axis.attrs['units']})"})
+    axes.set(xlabel=_axis_label(across), ylabel=_axis_label(up))
+    return axes
+
+
+def spectrum(minima: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
+    """Draw an `overturning_spectrum`; points are filled where an impact precedes overturning."""
+    _check_result("spectrum", minima)
+    axes = _axes(axes)
+    minima = minima.sortby("period")
+    for name in np.atleast_1d(minima.structure):
+        one = minima.sel(structure=name) if minima.structure.ndim else minima
+        (line,) = axes.plot(one.period, one.acceleration, label=str(name))
+        for filled in (True, False):
+            of_mode = one.acceleration.where(one.after_impact == filled)
+            face = line.get_color() if filled else axes.get_facecolor()
+            axes.plot(one.period, of_mode, "o", ms=4, color=line.get_color(), markerfacecolor=face)
+    for label, face in MODES.items():
+        axes.plot([], [], "o", ms=4, color="0.5", markerfacecolor=face, label=label)
+    axes.set_title(minima.attrs["shape"], fontsize="medium")
+    axes.set(xlabel=_axis_label(minima.period), ylabel=_axis_label(minima.acceleration))
+    axes.legend()
+    return axes
+
+
+def rotations(peaks: xarray.DataArray, *, axes: Axes | None = None) -> Axes:
+    """Draw `peak_rotations`, normalised by α: the curves of an incremental dynamic analysis.
+
+    A tick on the right stands for each factor that overturns.
+    """
+    _check_result("rotations", peaks)
+    axes = _axes(axes)
+    peaks = peaks.sortby("factor")
+    for place, name in enumerate(np.atleast_1d(peaks.structure)):
+        one = peaks.sel(structure=name) if peaks.structure.ndim else peaks
+        (line,) = axes.plot(one / one.slenderness, one.peak_acceleration, ".-", label=str(name))
+        overturned = one.peak_acceleration[np.isnan(one)]
+        beside = np.full(overturned.size, 1.02 + 0.03 * place)
+        axes.plot(
+            *(beside, overturned, "_"),
+            color=line.get_color(),
+            transform=axes.get_yaxis_transform(),
+            clip_on=False,
+        )
+    axes.set(
+        xlabel=r"Peak rotation, $\max|\theta|/\alpha$ (–); ticks on the right: overturns",
+        ylabel=_axis_label(peaks.peak_acceleration),
+        xlim=(0.0, None),
+    )
+    axes.legend()
+    return axes
+
+
+def capacity(result: Capacity, *, label: str = "", axes: Axes | None = None) -> Axes:
+    """Draw the share of the factors in a window that overturn, over the first factor of the window.
+
+    A line marks the capacity, a band its range over windows of 2.5 to 20 %.
+    """
+    _check_result("capacity", result)
+    axes = _axes(axes)
+    (line,) = axes.plot(result.factors, result.shares(result.window), label=label or "record")
+    axes.axhline(result.share, color="0.5", linestyle=":", linewidth=0.8)
+    low, high = result.range
+    if not math.isnan(result.factor):
+        axes.axvline(result.factor, color=line.get_color(), linestyle="--")
+        last = float(result.factors[-1]) if math.isnan(high) else high
+        axes.axvspan(low, last, color=line.get_color(), alpha=0.15, linewidth=0.0)
+    axes.set(
+        xlabel="Factor on the record (–)",
+        ylabel=f"Share that overturns within {100.0 * result.window:g} % (–)",
+        ylim=(-0.02, 1.02),
+    )
+    axes.legend()
     return axes
 
 
 def fragility(result: Fragility, *, axes: Axes | None = None) -> Axes:
     """Draw the probability of overturning: points, their intervals as bands, the fitted curves."""
+    _check_result("fragility", result)
     axes = _axes(axes)
     for name in result.curves.structure.to_numpy():
         curve = result.curves.sel(structure=name)
@@ -119,6 +201,10 @@ def structure(
         For a block, which has no bodies.
     """
     axes = _axes(axes)
+    rotation = checks.within("rotation", rotation, -math.pi / 2.0, math.pi / 2.0)
+    for name, value in (("cap_width", cap_width), ("cap_depth", cap_depth)):
+        if value is not None:
+            checks.positive(name, value, "m")
     width = depth = 0.0
     if isinstance(shown, FixedMassColumn | MonolithicPortal | RockingFrame):
         column = shown.column
@@ -138,12 +224,43 @@ def structure(
     return axes
 
 
+def _axis_label(values: xarray.DataArray) -> str:
+    """Return the name of values, with a capital, and their unit."""
+    name = values.attrs.get("long_name", str(values.name).replace("_", " "))
+    return f"{name[0].upper()}{name[1:]} ({values.attrs['units']})"
+
+
+def _check_result(function: str, result: object) -> None:
+    """Raise ValueError unless a function draws this result, and name the one that does."""
+    variables = set(getattr(result, "data_vars", ()))
+    is_rotations = getattr(result, "name", None) == "peak_rotation"
+    drawn = {
+        "history": ("Response, from simulate", isinstance(result, Response)),
+        "map": ("Dataset of overturning_map", {"peak_rotation", "overturned"} <= variables),
+        "spectrum": ("Dataset of overturning_spectrum", {"after_impact"} <= variables),
+        "rotations": ("DataArray of peak_rotations", is_rotations),
+        "capacity": ("Capacity, from capacity", isinstance(result, Capacity)),
+        "fragility": ("Fragility, from fragility", isinstance(result, Fragility)),
+    }
+    expected, fits = drawn[function]
+    if not fits:
+        others = [f"; plot.{name} draws this one" for name, (_, is_it) in drawn.items() if is_it]
+        raise ValueError(
+            f"result is a {type(result).__name__}; expected the {expected}{''.join(others)}"
+        )
+
+
 def _axes(axes: Axes | None) -> Axes:
     try:
         import matplotlib.pyplot as plt
+        from matplotlib.axes import Axes
     except ImportError as missing:
         raise ImportError(
             "topheavy.plot draws with Matplotlib, which is not installed; expected the extra: "
             'pip install "topheavy[plot]", in a clone pip install ".[plot]"'
         ) from missing
-    return axes if axes is not None else plt.figure(layout="constrained").add_subplot()
+    if axes is None:
+        return plt.figure(layout="constrained").add_subplot()
+    if not isinstance(axes, Axes):
+        raise ValueError(f"axes is {checks.short_repr(axes)}; expected Axes of Matplotlib, one")
+    return axes

@@ -215,7 +215,7 @@ def test_factors_on_several_structures_have_the_outcomes_of_judge():
         ((BLOCK, SHAKING, [1.0, -1.0]), "factors goes down to -1"),
         ((BLOCK, SHAKING, []), "factors has shape"),
         ((BLOCK, HARMONIC, [1.0]), "goes on forever"),
-        (([], SHAKING, [1.0]), "structure is an empty list; expected one or more"),
+        (([], SHAKING, [1.0]), "structures is empty; expected one"),
     ],
 )
 def test_bad_factors_are_refused_with_what_was_expected(arguments, says):

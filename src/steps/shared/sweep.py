@@ -159,7 +159,8 @@ def overturned(question: Question, record: Record, up: Record | None) -> Outcome
 
 def rotations(question: Question, record: Record, _: Record | None) -> NDArray[np.float64]:
     """Return the peak of |θ|/α, infinite where a structure overturns, of the same shape."""
-    peaks = peak_rotations(question.blocks, record, question.velocities / record.peak_velocity)
+    factors = question.velocities / record.peak_velocity
+    peaks = peak_rotations(question.blocks, record, factors).to_numpy()
     return np.nan_to_num(peaks / question.blocks[0].slenderness, nan=np.inf)
 
 

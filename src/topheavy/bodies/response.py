@@ -97,16 +97,8 @@ def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:
         For anything else.
     """
     if np.ndim(samples) == 0:
-        number = checks.finite("samples", samples)
-        if number != int(number) or number < 2:
-            raise ValueError(f"samples is {samples!r}; expected a whole number of at least 2")
-        if number > MAX_SAMPLES:
-            raise ValueError(
-                f"samples is {samples!r}; expected at most {MAX_SAMPLES} (240 MB), or an array of "
-                "the times that are wanted"
-            )
-        return int(number)
-    times = np.array(samples, dtype=float)
+        return checks.whole("samples", samples, 2, MAX_SAMPLES)
+    times = checks.numbers("samples", samples)
     if times.ndim != 1 or times.size == 0:
         raise ValueError(f"samples has shape {times.shape}; expected a list of times in s")
     if not np.isfinite(times).all():
@@ -124,8 +116,8 @@ def initial_motion(block: RockingBlock, rotation: float, velocity: float) -> tup
     ValueError
         Unless both are finite and, in the exact equation, |θ| < π/2.
     """
-    theta = checks.finite("rotation", rotation)
-    theta_rate = checks.finite("velocity", velocity)
+    theta = checks.within_reason("rotation", rotation, "rad")
+    theta_rate = checks.within_reason("velocity", velocity, "rad/s")
     if not block.linearised and abs(theta) >= math.pi / 2:
         raise ValueError(f"rotation is {theta:.6g} rad; expected less than π/2, where it lies flat")
     return theta, theta_rate

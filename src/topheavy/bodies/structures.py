@@ -8,6 +8,7 @@ the dynamics of either needs three numbers only: p, α and √r.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -16,6 +17,9 @@ from topheavy.checks import short_repr
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
+
+MAX_COLUMNS = 10_000
+"""Of a frame."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +61,7 @@ class RockingBlock:
             frequency_parameter=checks.positive("frequency_parameter", p, "rad/s"),
             slenderness=checks.within_quarter_turn("slenderness", self.slenderness),
             restitution=checks.fraction("restitution", self.restitution),
+            linearised=checks.truth("linearised", self.linearised),
         )
 
     @property
@@ -185,7 +190,7 @@ class RockingFrame:
     def __post_init__(self) -> None:
         checked_column(self.column)
         checks.set_fields(self, mass_ratio=checked_mass_ratio(self.mass_ratio))
-        object.__setattr__(self, "columns", checks.whole("columns", self.columns, 2))
+        object.__setattr__(self, "columns", checks.whole("columns", self.columns, 2, MAX_COLUMNS))
 
     @classmethod
     def of_masses(
@@ -210,7 +215,7 @@ class RockingFrame:
         ValueError
             For a mass or a number of columns outside its range.
         """
-        number = checks.whole("columns", columns, 2)
+        number = checks.whole("columns", columns, 2, MAX_COLUMNS)
         cap = checks.not_negative("cap_mass", cap_mass)
         return cls(column, cap / (number * checks.positive("column_mass", column_mass)), number)
 
@@ -273,6 +278,30 @@ def as_block(structure: Structure) -> RockingBlock:
             "structure with a method block()"
         )
     return structure.block()
+
+
+Structures = Structure | Sequence[Structure] | Mapping[str, Structure]
+"""One structure, or several: a list, or a mapping from names."""
+
+
+def named_blocks(structures: Structures) -> dict[str, RockingBlock]:
+    """Return the block of each structure by its name, or raise ValueError.
+
+    In a list the names are "Column 1", "RockingFrame 2" and so on; of one alone, "Column".
+    """
+    if not isinstance(structures, Mapping | Sequence):
+        return {type(structures).__name__: as_block(structures)}
+    if not isinstance(structures, Mapping):
+        structures = {f"{type(one).__name__} {i + 1}": one for i, one in enumerate(structures)}
+    if not structures:
+        raise ValueError("structures is empty; expected one, a list, or a mapping from names")
+    blocks = {}
+    for name, structure in structures.items():
+        try:
+            blocks[name] = as_block(structure)
+        except ValueError as error:
+            raise ValueError(f"structures, {name}: {error}") from None
+    return blocks
 
 
 def checked_column(value: object) -> None:

@@ -35,7 +35,7 @@ from topheavy.bodies.structures import (
     checked_two_columns,
 )
 from topheavy.checks import short_repr
-from topheavy.ground.excitation import Excitation
+from topheavy.ground.excitation import Excitation, checked_excitation
 from topheavy.ground.records import Record
 from topheavy.outcomes.simulate import simulate
 
@@ -78,7 +78,7 @@ class Cap:
         )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Reaction:
     """The force, or at an impact the impulse, of one contact on the body above it.
 
@@ -98,6 +98,7 @@ class Reaction:
 
     horizontal: Array
     vertical: Array
+    __repr__ = checks.repr_of_fields
 
     @property
     def friction_demand(self) -> Array:
@@ -112,7 +113,7 @@ class Reaction:
         return np.where(unloaded | np.isnan(self.vertical), np.nan, demand)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ContactForces:
     """The reactions at the four contacts of a rocking frame, each of the shape of the motion.
 
@@ -135,6 +136,7 @@ class ContactForces:
     base_right: Reaction
     top_left: Reaction
     top_right: Reaction
+    __repr__ = checks.repr_of_fields
 
     @property
     def contacts(self) -> tuple[Reaction, Reaction, Reaction, Reaction]:
@@ -193,8 +195,7 @@ def forces_at(
     >>> round(forces.base_left.vertical.item(), 3)
     0.422
     """
-    checked_two_columns(frame)
-    checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
+    _check_contacts(frame, cap)
     motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
     size, p_hat = frame.column.size, frame.frequency_parameter
     column_weight, beam_weight = weights(frame.mass_ratio)
@@ -255,8 +256,7 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     >>> round(impulses.base_left.vertical.item(), 3)
     0.333
     """
-    checked_two_columns(frame)
-    checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
+    _check_contacts(frame, cap)
     column_weight, beam_weight = weights(frame.mass_ratio)
     size = frame.column.size
     column = _impulse(frame, size, velocity, column_weight)
@@ -264,6 +264,19 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     side = np.sign(np.asarray(velocity, dtype=float))
     lean = np.full(side.shape, frame.slenderness)
     return _distributed(frame, cap, side, lean, column, beam)
+
+
+def _check_contacts(frame: object, cap: object) -> None:
+    """Raise ValueError unless the contacts of a frame and a cap beam are known."""
+    if not isinstance(frame, RockingFrame):
+        raise ValueError(f"structure is {short_repr(frame)}; expected a RockingFrame")
+    if not isinstance(cap, Cap):
+        raise ValueError(
+            f"cap is {short_repr(cap)}; expected its dimensions, for example "
+            "Cap(span=5.0, half_depth=0.4) in m"
+        )
+    checked_two_columns(frame)
+    checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
 
 
 CONTACTS = ("base_left", "base_right", "top_left", "top_right")
@@ -319,8 +332,11 @@ def contact_forces(
     """
     import xarray  # it imports pandas, a second that only tables need
 
-    if not isinstance(structure, RockingFrame):
-        raise ValueError(f"structure is {short_repr(structure)}; expected a RockingFrame")
+    _check_contacts(structure, cap)
+    if not isinstance(response, Response):
+        raise ValueError(f"response is {short_repr(response)}; expected one that simulate returned")
+    if motion is not None:
+        checked_excitation(motion)
     if response.time[0] != 0.0:
         raise ValueError(f"response begins at {response.time[0]:.6g} s; expected t = 0")
     time = _times_of_forces(structure, response, motion)

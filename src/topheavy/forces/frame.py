@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from topheavy import checks
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
 from topheavy.forces.contact import Cap, forces_at, motion_state, weights
 from topheavy.ground.excitation import Excitation, checked_excitation
@@ -30,7 +31,7 @@ SECTIONS = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Heights, normalised by 2h, at which the bending moments are computed."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FrameForces:
     """Forces of a rocking frame normalised by its weight, each of the shape of the motion.
 
@@ -55,6 +56,7 @@ class FrameForces:
     base_shear: Array
     overturning_moment: Array
     bending_moment: Array
+    __repr__ = checks.repr_of_fields
 
 
 def frame_forces(

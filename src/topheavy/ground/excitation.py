@@ -135,7 +135,10 @@ class Excitation(ABC):
     def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]: ...
     def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
         """Return the ground acceleration in g at the time(s) t in s; zero outside the motion."""
-        values = self.accelerations(checks.numbers("t", t))
+        times = checks.numbers("t", t)
+        if np.isnan(times).any():
+            raise ValueError("t holds NaN; expected times in s")
+        values = self.accelerations(times)
         return float(values) if np.ndim(values) == 0 else values
 
     @abstractmethod

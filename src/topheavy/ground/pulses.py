@@ -27,6 +27,7 @@ from topheavy.ground.shapes import (
     SHAPES,
     SINE,
     WAVES,
+    PulseShape,
     Wave,
 )
 
@@ -54,7 +55,7 @@ def unit_wave(wave: int, phase: Any) -> tuple[Any, Any]:
     return (x * x - 3.0) * x * bell, (x * x * (6.0 - x * x) - 3.0) / np.sqrt(3.0) * bell
 
 
-def checked_shape(shape: str) -> str:
+def checked_shape(shape: PulseShape) -> PulseShape:
     """Return the name of a pulse shape, or raise ValueError with the nearest one that exists."""
     if shape not in PULSE_SHAPES:
         close = difflib.get_close_matches(str(shape), PULSE_SHAPES, n=1, cutoff=0.5)
@@ -70,8 +71,8 @@ class Pulse(Excitation):
     Parameters
     ----------
     shape : str
-        One of `PULSE_SHAPES`. One-sine and one-cosine last 2π/ω for each of their cycles, half-sine
-        and constant π/ω, the Ricker wavelets 4.5 · 2π/ω; the harmonic (a sine) goes on.
+        "one-sine" and "one-cosine" last 2π/ω for each of their cycles, "half-sine" and "constant"
+        π/ω, "ricker-symmetric" and "ricker-antisymmetric" 4.5 · 2π/ω; "harmonic" (a sine) goes on.
     amplitude : float
         Peak acceleration in g; a negative one mirrors the pulse.
     angular_frequency : float
@@ -96,14 +97,14 @@ class Pulse(Excitation):
     15.0
     """
 
-    shape: str
+    shape: PulseShape
     amplitude: float
     angular_frequency: float
     cycles: int
 
     def __init__(
         self,
-        shape: str,
+        shape: PulseShape,
         amplitude: float,
         angular_frequency: float | None = None,
         *,
@@ -191,11 +192,10 @@ def _turns(wave: Wave, end: float) -> list[float]:
     return [turn for turn in turns if 0.0 < turn < end]
 
 
-def _checked_cycles(cycles: int, shape: str) -> int:
+def _checked_cycles(cycles: int, shape: PulseShape) -> int:
     """Return the number of cycles of a pulse, or raise ValueError with the accepted ones."""
-    if not 1.0 <= checks.finite("cycles", cycles) == int(cycles) <= MAX_CYCLES:
-        raise ValueError(f"cycles is {cycles}; expected a whole number from 1 to {MAX_CYCLES}")
-    if cycles > 1 and not SHAPES[shape].repeats:
+    number = checks.whole("cycles", cycles, 1, MAX_CYCLES)
+    if number > 1 and not SHAPES[shape].repeats:
         several = " or ".join(name for name, each in SHAPES.items() if each.repeats)
         raise ValueError(f"cycles is {cycles} for shape {shape!r}; expected 1, or shape {several}")
-    return int(cycles)
+    return number

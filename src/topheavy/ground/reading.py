@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
@@ -16,11 +17,13 @@ OTHER_READERS = """\
 from gmprocess.io.read import read_data  # pip install gmprocess
 
 trace = read_data("FILE")[0][0].detrend("demean")
-record = Record(trace.stats.delta, trace.data, trace.id, unit=trace.stats.standard.units)
+unit, start = trace.stats.standard.units, trace.stats.starttime.timestamp
+record = Record(trace.stats.delta, trace.data, trace.id, unit=unit, start=start)
 import obspy  # or, of K-NET and KiK-net: pip install obspy
 
-trace = obspy.read("FILE")[0].detrend("demean")
-record = Record(trace.stats.delta, trace.data * trace.stats.calib, trace.id, unit="m/s2")
+trace = obspy.read("FILE").merge()[0].detrend("demean")  # refuses a gap
+samples, start = trace.data * trace.stats.calib, trace.stats.starttime.timestamp
+record = Record(trace.stats.delta, samples, trace.id, unit="m/s2", start=start)
 """
 
 NETWORKS = {
@@ -69,6 +72,8 @@ def read_record(
     >>> th.read_record("motion.csv").peak_acceleration
     0.2
     """
+    if not isinstance(path, str | PathLike):
+        raise ValueError(f"path is {checks.short_repr(path)}; expected the path of a file")
     raw, ending = (path := Path(path)).read_bytes(), path.suffix.lower()
     try:
         lines = raw.decode("utf-8-sig").splitlines()

@@ -34,7 +34,7 @@ def acceleration_in_g(unit: str) -> float | None:
     return UNITS.get(re.sub(r"(?<=m)[.·⋅]?s-2$", "/s2", plain).replace("gals", "gal"))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Record(Excitation):
     """A recorded ground acceleration: sample k at k·time_step, linear between, zero outside.
 
@@ -83,6 +83,10 @@ class Record(Excitation):
         start: float = 0.0,
     ) -> None:
         time_step = checks.positive("time_step", time_step, "s")
+        if not isinstance(name, str) or acceleration_in_g(name) is not None:
+            raise ValueError(
+                f"name is {checks.short_repr(name)}; expected a text that is no unit, or unit=…"
+            )
         label = _label(name)
         samples = checks.numbers(f"{label}: acceleration", acceleration)
         if samples.ndim != 1 or samples.size < 2:
@@ -114,7 +118,7 @@ class Record(Excitation):
         record._set(self.time_step, acceleration, self.name, self.start)
         return record
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         sizes = f"{self.acceleration.size} samples, time step {self.time_step:.6g} s"
         peaks = f"PGA {self.peak_acceleration:.4g} g, PGV {self.peak_velocity:.4g} m/s"
         return f"{self.name or 'record'}: {sizes}, {peaks}"

@@ -10,7 +10,7 @@ src/explorer/motions.js.
 """
 
 import math
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 CENTRE = 4.5 * math.pi
 """Phase of the middle of a Ricker wavelet: 2.25 T after the start."""
@@ -68,7 +68,15 @@ class Shape(NamedTuple):
         return WAVES[self.wave].drag == 0.0
 
 
-SHAPES = {
+FiniteShape = Literal[
+    "one-sine", "one-cosine", "half-sine", "constant", "ricker-symmetric", "ricker-antisymmetric"
+]
+"""Shapes of pulses that end, which maps, searches and configs accept."""
+
+PulseShape = Literal[FiniteShape, "harmonic"]
+"""The names that `Pulse` accepts."""
+
+SHAPES: dict[PulseShape, Shape] = {
     "one-sine": Shape("One-sine pulse", "sine", 2.0, repeats=True),
     "one-cosine": Shape("One-cosine pulse", "cosine", 2.0, repeats=True),
     "half-sine": Shape("Half-sine pulse", "sine", 1.0),
@@ -78,11 +86,8 @@ SHAPES = {
     "ricker-antisymmetric": Shape("Antisymmetric Ricker pulse", "ricker-antisymmetric", 9.0),
 }
 
-PULSE_SHAPES = tuple(SHAPES)
-"""The names that `Pulse` accepts."""
-
-FINITE_SHAPES = tuple(name for name, shape in SHAPES.items() if shape.half_periods < math.inf)
-"""Shapes of pulses that end, which maps, searches and configs accept."""
+PULSE_SHAPES: tuple[PulseShape, ...] = tuple(SHAPES)
+FINITE_SHAPES: tuple[FiniteShape, ...] = get_args(FiniteShape)
 
 ELEMENTARY = tuple(name for name, shape in SHAPES.items() if shape.is_elementary)
 """Shapes with a solution of the linearised equation in elementary functions."""

@@ -29,6 +29,7 @@ from topheavy.ground.shapes import (
     RICKER_SYMMETRIC,
     SHAPES,
     WAVES,
+    PulseShape,
 )
 from topheavy.kernel.compiled import compiled
 
@@ -113,7 +114,7 @@ A_START, A_END, V_START, V_END, TIME, A_MAX, V_MAX, A_MAX_OF_RUN, V_MAX_OF_RUN =
 NO_MOTION = Waveform(NONE, 0.0, NO_RECORD)
 
 
-def pulse_waveform(shape: str, cycles: int = 1) -> Waveform:
+def pulse_waveform(shape: PulseShape, cycles: int = 1) -> Waveform:
     """Return the waveform of a pulse shape."""
     wave, half_periods = list(WAVES).index(SHAPES[shape].wave), SHAPES[shape].half_periods
     return Waveform(wave, cycles * half_periods * math.pi, NO_RECORD)

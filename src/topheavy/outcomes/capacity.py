@@ -66,7 +66,7 @@ class Capacity:
     unit_acceleration: float = math.nan
 
     def __post_init__(self) -> None:
-        factors = checks.axis_values("factors", self.factors, zero_allowed=False)
+        factors = checks.axis_values("factors", self.factors)
         overturned = checks.truths("overturned", self.overturned)
         if factors.size < 2 or (np.diff(factors) <= 0.0).any():
             raise ValueError("factors do not increase; expected two or more increasing factors")
@@ -200,7 +200,7 @@ def capacity(
 
     peak = checks.positive("peak acceleration of the record", record.peak_acceleration)
     if factors is not None:
-        scales = checks.axis_values("factors", factors, zero_allowed=False)
+        scales = checks.axis_values("factors", factors)
         return Capacity(scales, outcomes(scales), window, share, peak)
     first = block.uplift_acceleration / peak
     last = MAX_OVER_UPLIFT * first

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.bodies.structures import Structure, as_block
+from topheavy.bodies.structures import Structure, Structures, named_blocks
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
+from topheavy.ground.shapes import FiniteShape
 from topheavy.outcomes.search import (
     Case,
     cases_of,
@@ -21,6 +22,7 @@ from topheavy.outcomes.search import (
     intervals_of_many,
     intervals_on,
     outcomes_of_factors,
+    structure_coordinates,
 )
 
 if TYPE_CHECKING:
@@ -142,7 +144,7 @@ def lowest_overturning(
             "motion, give excitation.scaled(-1)"
         )
     cases = cases_of([structure], excitation, scale_range, vertical, scale_vertical)
-    return _lowest(cases, [excitation], [scale_range], [floor])[0]
+    return _lowest(cases, [excitation], [scale_range], [checks.positive("floor", floor)])[0]
 
 
 def lowest_of_many(
@@ -220,7 +222,7 @@ def _nested_grid(
 ) -> _Grid:
     """Return a range in equal parts not wider than the floor; their number is a power of two."""
     first, last = checked_range(excitation, scale_range)
-    parts = (last - first) / checks.positive("floor", floor)
+    parts = (last - first) / floor
     checks.number_of_cells(
         f"floor is {floor:.6g} of {first:g} to {last:g}", math.ceil(min(parts, 1e18))
     )
@@ -228,60 +230,68 @@ def _nested_grid(
 
 
 def overturning_spectrum(
-    structure: Structure, shape: str, periods: ArrayLike, *, highest: float = 16.0
+    structure: Structures, shape: FiniteShape, periods: ArrayLike, *, highest: float = 16.0
 ) -> xarray.Dataset:
-    """Return the minimum overturning acceleration of a structure over the period of a pulse.
+    """Return the minimum overturning acceleration of structures over the period of a pulse.
 
     No interval of amplitudes wider than 0.02 of the uplift acceleration is missed. Below 1.3 times
     the uplift acceleration, no interval wider than 0.001 of it is missed.
 
     Parameters
     ----------
-    structure : Structure
+    structure : Structure, or several in a list or a mapping from names
         RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     shape : str
         A shape of `Pulse` that ends.
     periods : array_like, shape (n,)
         2π/ω, s; positive.
     highest : float
-        The largest amplitude, normalised by the uplift acceleration.
+        The largest amplitude, normalised by the uplift acceleration; more than 1.
 
     Returns
     -------
     xarray.Dataset
-        Over the period: acceleration (g; NaN if no amplitude up to the highest overturns) and
-        after_impact, whether the structure overturns after an impact (mode 1 of Zhang & Makris
-        2001) or without one (mode 2).
+        Over the period, or (structure, period) for several structures: acceleration (g; NaN if no
+        amplitude up to the highest overturns) and after_impact, whether the structure overturns
+        after an impact (mode 1 of Zhang & Makris 2001) or without one (mode 2).
 
     Examples
     --------
-    >>> spectrum = th.overturning_spectrum(th.Column(0.5, 3.0), "one-sine", [0.5, 1.0, 4.0])
-    >>> spectrum.acceleration.values.round(3)
-    array([1.354, 0.286, 0.183])
+    >>> column = th.Column.of_dimensions(width=1.0, height=6.0)  # m
+    >>> structures = {"column": column, "frame": th.RockingFrame(column, mass_ratio=2.0)}
+    >>> spectrum = th.overturning_spectrum(structures, "one-sine", np.linspace(0.5, 4.0, 8))
+    >>> spectrum.acceleration.sel(period=1.0).to_series().round(3).to_dict()
+    {'column': 0.286, 'frame': 0.379}
+    >>> axes = th.plot.spectrum(spectrum)
     """
     import xarray  # here: with pandas it takes a second that only tables need
 
-    block = as_block(structure)
-    axis = checks.axis_values("periods", periods, zero_allowed=False)
-    uplift = block.uplift_acceleration
-    minima = [
-        intervals[0] if intervals else None
-        for intervals in intervals_of_many(
-            [block] * axis.size,
-            [Pulse(shape, uplift, period=period) for period in axis.tolist()],
-            (1.0, highest),
-            resolution=RESOLUTION,
-            most_impacts=1,
-            finer=FINER,
-        )
-    ]
-    accelerations = [uplift * one.lower[1] if one else math.nan for one in minima]
-    name = "minimum overturning acceleration"
-    return xarray.Dataset(
-        {
-            "acceleration": ("period", accelerations, {"units": "g", "long_name": name}),
-            "after_impact": ("period", [bool(one and one.number_of_impacts) for one in minima]),
-        },
-        coords={"period": ("period", axis, {"units": "s"})},
-        attrs={"shape": shape, "slenderness": block.slenderness, "restitution": block.restitution},
+    blocks, axis = named_blocks(structure), checks.axis_values("periods", periods, "s")
+    if checks.positive("highest", highest) <= 1.0:
+        raise ValueError(f"highest is {highest:.6g}; expected more than 1, the uplift acceleration")
+    pairs = [(block, period) for block in blocks.values() for period in axis.tolist()]
+    intervals = intervals_of_many(
+        [block for block, _ in pairs],
+        [Pulse(shape, block.uplift_acceleration, period=period) for block, period in pairs],
+        (1.0, highest),
+        resolution=RESOLUTION,
+        most_impacts=1,
+        finer=FINER,
     )
+    minima = [
+        (block.uplift_acceleration * some[0].lower[1], some[0].number_of_impacts > 0)
+        if some
+        else (math.nan, False)
+        for (block, _), some in zip(pairs, intervals, strict=True)
+    ]
+    accelerations, after_impact = np.reshape(minima, (len(blocks), axis.size, 2)).transpose(2, 0, 1)
+    at, name = ("structure", "period"), "minimum overturning acceleration"
+    result = xarray.Dataset(
+        {
+            "acceleration": (at, accelerations, {"units": "g", "long_name": name}),
+            "after_impact": (at, after_impact > 0.0),
+        },
+        coords={"period": ("period", axis, {"units": "s"})} | structure_coordinates(blocks),
+        attrs={"shape": shape},
+    )
+    return result if isinstance(structure, Mapping | Sequence) else result.isel(structure=0)

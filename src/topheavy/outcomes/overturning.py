@@ -11,6 +11,7 @@ from topheavy import checks
 from topheavy.bodies.structures import Column, Structure, as_block, solitary_size
 from topheavy.ground.pulses import checked_shape
 from topheavy.ground.records import Record
+from topheavy.ground.shapes import FiniteShape
 from topheavy.kernel.forcing import pulse_waveform
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def overturning_map(
-    structure: Structure, motion: str | Record, scales: ArrayLike, amplitudes: ArrayLike
+    structure: Structure, motion: FiniteShape | Record, scales: ArrayLike, amplitudes: ArrayLike
 ) -> xarray.Dataset:
     """Return which pulses or records overturn a structure, and its peak rotation under the others.
 
@@ -63,7 +64,8 @@ def overturning_map(
 
     block = as_block(structure)
     p = block.frequency_parameter
-    axis = checks.axis_values("scales", scales, zero_allowed=False)
+    unit = "m" if isinstance(motion, Record) else "rad/s"
+    axis = checks.axis_values("scales", scales, unit)
     accelerations = checks.axis_values("amplitudes", amplitudes, zero_allowed=True)
     checks.acceleration("the largest of amplitudes", accelerations.max())
     checks.number_of_cells("scales by amplitudes", axis.size, accelerations.size)

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.bodies.structures import Structure, as_block
+from topheavy.bodies.structures import (
+    RockingBlock,
+    Structure,
+    Structures,
+    as_block,
+    named_blocks,
+)
 from topheavy.ground.excitation import Excitation, no_excitation
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
@@ -20,6 +26,9 @@ from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.step import TOLERANCE
 from topheavy.kernel.taylor import Oscillator, oscillator
 from topheavy.outcomes.simulate import Shaking, as_shaking, checked_tolerance
+
+if TYPE_CHECKING:
+    import xarray
 
 SURVIVES = -1
 """Label of a factor that the structure survives; the label of another is its number of impacts."""
@@ -45,7 +54,7 @@ class Case(NamedTuple):
 
 
 def overturned_by(
-    structure: Structure | Sequence[Structure],
+    structure: Structures,
     excitation: Excitation,
     factors: ArrayLike,
     *,
@@ -57,7 +66,7 @@ def overturned_by(
 
     Parameters
     ----------
-    structure : Structure, or a sequence of m structures
+    structure : Structure, or m structures in a list or a mapping from names
         RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     excitation : Pulse or Record
         One that ends.
@@ -72,7 +81,7 @@ def overturned_by(
 
     Returns
     -------
-    ndarray of bool, shape (n,), or (m, n) for a sequence
+    ndarray of bool, shape (n,), or (m, n) for several structures
 
     Raises
     ------
@@ -85,45 +94,85 @@ def overturned_by(
     >>> th.overturned_by(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0), [0.15, 0.4])
     array([False,  True])
     """
-    return _under_factors(structure, excitation, factors, tolerance, vertical, scale_vertical)[1]
+    blocks = named_blocks(structure).values()
+    _, overturned = peaks_and_outcomes(
+        [*blocks], excitation, factors, tolerance, vertical, scale_vertical
+    )
+    return overturned if isinstance(structure, Mapping | Sequence) else overturned[0]
 
 
 def peak_rotations(
-    structure: Structure | Sequence[Structure],
-    excitation: Excitation,
+    structure: Structures,
+    excitation: Pulse | Record,
     factors: ArrayLike,
     *,
     tolerance: float = TOLERANCE,
     vertical: Record | None = None,
     scale_vertical: bool = True,
-) -> NDArray[np.float64]:
+) -> xarray.DataArray:
     """Return max|θ| in rad under each factor on a ground motion; NaN where it overturns.
 
     Over the factors this is the curve of an incremental dynamic analysis (Vamvatsikos & Cornell
     2002). Parameters and errors are those of `overturned_by`.
 
+    Returns
+    -------
+    xarray.DataArray
+        Over the factor, or (structure, factor) for several structures, with the peak ground
+        acceleration (g) of each factor and the slenderness (rad) of each structure.
+
     Examples
     --------
-    >>> column, record = th.Column(0.5, 3.0), th.Record(0.02, np.sin(0.1 * np.arange(100)))
-    >>> th.peak_rotations(column, record, [0.1, 0.3, 0.9]).round(4)
-    array([0.    , 0.1246,    nan])
+    >>> pier = th.Column.of_dimensions(width=1.6, height=9.6)  # m
+    >>> structures = {"pier": pier, "bent": th.RockingFrame(pier, mass_ratio=2.0)}
+    >>> record = th.read_record("data/records/el_centro_1940_NS.AT2")
+    >>> peaks = th.peak_rotations(structures, record, np.linspace(0.5, 4.0, 71))
+    >>> peaks.sel(factor=2.0).to_series().round(4).to_dict()
+    {'pier': 0.0813, 'bent': 0.0305}
+    >>> axes = th.plot.rotations(peaks)
     """
-    return _under_factors(structure, excitation, factors, tolerance, vertical, scale_vertical)[0]
+    import xarray  # with pandas it takes a second that only tables need
+
+    blocks, scales = named_blocks(structure), checks.numbers("factors", factors).ravel()
+    peaks, _ = peaks_and_outcomes(
+        [*blocks.values()], excitation, factors, tolerance, vertical, scale_vertical
+    )
+    accelerations = excitation.peak_acceleration * scales
+    name = "peak ground acceleration"
+    result = xarray.DataArray(
+        peaks,
+        {
+            "factor": scales,
+            "peak_acceleration": ("factor", accelerations, {"units": "g", "long_name": name}),
+        }
+        | structure_coordinates(blocks),
+        ("structure", "factor"),
+        "peak_rotation",
+        {"units": "rad", "long_name": "largest |θ|"},
+    )
+    return result if isinstance(structure, Mapping | Sequence) else result.isel(structure=0)
 
 
-def _under_factors(
-    structure: Structure | Sequence[Structure],
+def structure_coordinates(blocks: Mapping[str, RockingBlock]) -> dict[str, Any]:
+    """Return names, slenderness and √r of structures as coordinates of a result."""
+    slenderness = [block.slenderness for block in blocks.values()]
+    return {
+        "structure": [*blocks],
+        "slenderness": ("structure", slenderness, {"units": "rad"}),
+        "restitution": ("structure", [block.restitution for block in blocks.values()]),
+    }
+
+
+def peaks_and_outcomes(
+    structures: Sequence[Structure],
     excitation: Excitation,
     factors: ArrayLike,
-    tolerance: float,
-    vertical: Record | None,
-    scale_vertical: bool,
+    tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+    scale_vertical: bool = True,
 ) -> tuple[Factors, NDArray[np.bool_]]:
-    """Return peak rotation and overturning under each factor."""
+    """Return peak rotation (rad) and overturning under each factor, shape (structures, factors)."""
     scales = checks.axis_values("factors", factors, zero_allowed=True)
-    structures = list(structure) if isinstance(structure, Sequence) else [structure]
-    if not structures:
-        raise ValueError("structure is an empty list; expected one or more structures")
     ends = (float(scales.min()), float(scales.max()))
     cases = cases_of(structures, excitation, ends, vertical, scale_vertical)
     peak, overturned, _ = outcomes_of_factors(
@@ -132,7 +181,7 @@ def _under_factors(
         np.tile(scales, len(cases)),
         tolerance=checked_tolerance(tolerance),
     )
-    shape = (len(cases), scales.size) if isinstance(structure, Sequence) else (scales.size,)
+    shape = (len(cases), scales.size)
     return peak.reshape(shape), overturned.reshape(shape)
 
 
@@ -202,6 +251,7 @@ def overturning_intervals(
     >>> [interval.number_of_impacts for interval in intervals]
     [1, 0]
     """
+    resolution = checks.positive("resolution", resolution)
     grid = _grid(excitation, scale_range, resolution)
     cases = cases_of([structure], excitation, scale_range, vertical, scale_vertical)
     return intervals_on(cases, [grid], resolution, most_impacts)[0]
@@ -248,16 +298,13 @@ def checked_range(excitation: Excitation, scale_range: tuple[float, float]) -> t
     first, last = (checks.finite("scale_range", value) for value in ends)
     if not first < last:
         raise ValueError(f"scale_range is ({first:.6g}, {last:.6g}); expected it to ascend")
-    if isinstance(excitation, (Pulse, Record)):
-        for factor in (first, last):
-            excitation.scaled(factor)  # refuses a factor that is too large
     return first, last
 
 
 def _grid(excitation: Excitation, scale_range: tuple[float, float], resolution: float) -> Factors:
     """Return the first factors of a search, in equal steps not wider than the resolution."""
     first, last = checked_range(excitation, scale_range)
-    steps = (last - first) / checks.positive("resolution", resolution)
+    steps = (last - first) / resolution
     checks.number_of_cells(
         f"resolution is {resolution:g} of {first:g} to {last:g}", math.ceil(min(steps, 1e18))
     )
@@ -275,9 +322,7 @@ def intervals_on(
         return []
     most = np.iinfo(np.int64).max
     if most_impacts is not None:
-        if not 0.0 <= checks.finite("most_impacts", most_impacts) == int(most_impacts):
-            raise ValueError(f"most_impacts is {most_impacts}; expected a whole number from 0 on")
-        most = int(most_impacts)
+        most = min(most, checks.whole("most_impacts", most_impacts, 0))
 
     def label(case_index: Indices, factors: Factors) -> Indices:
         _, overturned, impacts = outcomes_of_factors(cases, case_index, factors)
@@ -340,6 +385,10 @@ def cases_of(
         raise no_excitation(excitation)
     if isinstance(excitation, Pulse) and excitation.duration == math.inf:
         raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
+    if isinstance(excitation, Pulse | Record):
+        for factor in scale_range:
+            excitation.scaled(factor)  # refuses a factor that is too large
+    scale_vertical = checks.truth("scale_vertical", scale_vertical)
     if vertical is not None:
         _, up = both_records(excitation, vertical)
         check_no_free_fall(up, scale_range if scale_vertical else 1.0)

@@ -119,7 +119,9 @@ def simulate(
         check_no_free_fall(both_records(excitation, vertical)[1])
     shaking = as_shaking(excitation, vertical)
     p, scale = block.frequency_parameter, shaking.scale(block)
-    until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
+    if duration is not None:
+        duration = checks.positive("duration", duration, "s")
+    until = math.inf if duration is None else p * duration
     forcing = forcing_of(shaking.waveform, scale, shaking.amplitude, 1.0)
     forcing = forcing._replace(end=min(forcing.end, until))
     if forcing.end == math.inf:

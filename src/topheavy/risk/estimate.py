@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
+from topheavy.bodies.structures import Structures, named_blocks
 from topheavy.ground.records import Record
-from topheavy.outcomes.search import overturned_by, peak_rotations
+from topheavy.outcomes.search import peaks_and_outcomes
 from topheavy.risk import inputs
 from topheavy.risk.curve import fit, points_between
 from topheavy.risk.resampling import means_within
@@ -26,7 +27,7 @@ Array = NDArray[np.float64]
 Outcomes = NDArray[np.bool_]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Fragility:
     """Probability of overturning of structures over the intensity of motions.
 
@@ -86,7 +87,7 @@ class Fragility:
         at_levels = [name for name, values in self.curves.items() if "level" in values.dims]
         return self.curves[at_levels].to_dataframe(["structure", "level"]).reset_index()
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         """Return the median of each structure and the gain of each pair, with intervals.
 
         Of a median that is NaN it says why.
@@ -133,7 +134,7 @@ def _line(row: xarray.Dataset, name: str, unit: str) -> str:
 
 
 def fragility(
-    structures: inputs.Structures,
+    structures: Structures,
     motions: Sequence[inputs.Motion],
     levels: ArrayLike,
     measure: inputs.Measure = "PGV",
@@ -162,7 +163,7 @@ def fragility(
 
     Parameters
     ----------
-    structures : mapping from names to structures, or sequence of structures
+    structures : Structure, or several in a list or a mapping from names
         Column, RockingFrame, FixedMassColumn, MonolithicPortal, RockingBlock.
     motions : sequence of Record
         Also of Pulse, if measure is a function.
@@ -213,21 +214,26 @@ def fragility(
     >>> result.outcomes.sum(axis=0)
     array([[0, 1, 2]])
     """
-    blocks = inputs.named_blocks(structures)
+    blocks = named_blocks(structures)
     shaking = inputs.checked_motions(motions)
     steps = inputs.checked_levels(levels, measure)
     members = inputs.checked_groups(groups, len(shaking))
-    inputs.checked_resampling(confidence, resamples, seed)
+    confidence, resamples, seed = inputs.checked_resampling(confidence, resamples, seed)
     scales = inputs.scale_factors(steps, inputs.intensities(shaking, measure))
     ups = inputs.checked_vertical(vertical, len(shaking))
-    limit = None if rotation_limit is None else checks.positive("rotation_limit", rotation_limit)
+    limit = rotation_limit
+    if limit is not None:
+        limit = checks.within_quarter_turn("rotation_limit", limit)
+    skewed, scale_vertical = (
+        checks.truth(name, value)
+        for name, value in (("skewed", skewed), ("scale_vertical", scale_vertical))
+    )
 
     def outcomes_of(motion: inputs.Motion, up: Record | None, factors: Array) -> Outcomes:
-        under = list(blocks.values()), motion, factors
-        if limit is None:
-            return overturned_by(*under, vertical=up, scale_vertical=scale_vertical)
-        peaks = peak_rotations(*under, vertical=up, scale_vertical=scale_vertical)
-        return ~(peaks <= limit)  # also where it is NaN
+        peaks, overturned = peaks_and_outcomes(
+            [*blocks.values()], motion, factors, vertical=up, scale_vertical=scale_vertical
+        )
+        return overturned if limit is None else ~(peaks <= limit)  # also where it is NaN
 
     outcomes = np.array([*map(outcomes_of, shaking, ups, scales)])
     means = means_within(outcomes, members or [None] * len(shaking), resamples, seed)

@@ -1,20 +1,18 @@
 """Checks of the arguments of `fragility`: structures, motions, intensities, levels and groups."""
 
 import math
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.bodies.structures import RockingBlock, Structure, as_block
 from topheavy.checks import short_repr
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import MAX_RECORDED, Record
 
 Motion = Pulse | Record
-Structures = Mapping[str, Structure] | Sequence[Structure]
 Measure = Literal["PGV", "PGA"] | Callable[[Any], float]
 
 UNITS = {"PGV": "m/s", "PGA": "g"}
@@ -23,32 +21,10 @@ UNITS = {"PGV": "m/s", "PGA": "g"}
 USUAL_LEVELS = {"PGV": (checks.MAX_USUAL_VELOCITY, "cm/s"), "PGA": (MAX_RECORDED, "gal or m/s²")}
 """Half of the levels are usually below the first number; otherwise a warning asks the unit."""
 
-MIN_RESAMPLES = 100
+MIN_RESAMPLES, MAX_RESAMPLES = 100, 1_000_000
 
 PROPORTIONALITY = 1e-6
 """How far a measure may be from doubling with its motion, relative to its value."""
-
-
-def named_blocks(structures: Structures) -> dict[str, RockingBlock]:
-    """Return the block of each structure by its name, or raise ValueError.
-
-    In a list the names are "Column 1", "RockingFrame 2" and so on.
-    """
-    if not isinstance(structures, Mapping | Sequence) or not structures:
-        raise ValueError(
-            f"structures is {short_repr(structures)}; expected a mapping from names to "
-            "structures, or a list of structures"
-        )
-    named = structures
-    if not isinstance(named, Mapping):
-        named = {f"{type(each).__name__} {i + 1}": each for i, each in enumerate(named)}
-    blocks = {}
-    for name, structure in named.items():
-        try:
-            blocks[name] = as_block(structure)
-        except ValueError as error:
-            raise ValueError(f"structures, {name}: {error}") from None
-    return blocks
 
 
 def checked_motions(motions: Sequence[Motion]) -> list[Motion]:
@@ -89,8 +65,10 @@ def checked_vertical(vertical: Sequence[Record] | None, motions: int) -> list[Re
     """
     if vertical is None:
         return [None] * motions
-    if len(vertical) != motions:
-        raise ValueError(f"vertical has {len(vertical)} Records; expected {motions}, one a motion")
+    if not isinstance(vertical, Sequence) or len(vertical) != motions:
+        raise ValueError(
+            f"vertical is {short_repr(vertical)}; expected {motions} Records, one a motion"
+        )
     for place, record in enumerate(vertical):
         if not isinstance(record, Record):
             raise ValueError(
@@ -114,7 +92,7 @@ def intensities(motions: Sequence[Motion], measure: Measure) -> NDArray[np.float
         values = [measure(motion) for motion in motions]
         for place, (motion, value) in enumerate(zip(motions, values, strict=True)):
             _check_proportional(f"measure of motions[{place}]", measure, motion, value)
-    elif measure not in UNITS:
+    elif not isinstance(measure, str) or measure not in UNITS:
         raise ValueError(
             f"measure is {short_repr(measure)}; expected 'PGV', 'PGA' or a function of a motion"
         )
@@ -154,7 +132,7 @@ def checked_levels(levels: ArrayLike, measure: Measure) -> NDArray[np.float64]:
 
     Levels that are probably in another unit than the measure are warned of.
     """
-    result = checks.axis_values("levels", levels, zero_allowed=False)
+    result = checks.axis_values("levels", levels)
     if (np.diff(result) <= 0.0).any():
         raise ValueError(f"levels is {short_repr(result)}; expected levels that increase")
     if isinstance(measure, str) and measure in USUAL_LEVELS:
@@ -185,17 +163,22 @@ def checked_groups(groups: Sequence[Hashable] | None, motions: int) -> list[Hash
     """
     if groups is None:
         return None
-    if len(groups) != motions or len(set(groups)) == motions:
+    members = [] if isinstance(groups, str) or not np.iterable(groups) else list(groups)
+    known = [one for one in members if isinstance(one, Hashable) and one == one]  # not NaN
+    if not len(known) == len(members) == motions > len(set(known)):
         raise ValueError(
             f"groups is {short_repr(groups)}; expected the group of each of {motions} motions, and "
             "two motions in one group at least, since motions are resampled within their group"
         )
-    return list(groups)
+    return members
 
 
-def checked_resampling(confidence: float, resamples: int, seed: int) -> None:
-    """Raise ValueError unless intervals can be computed with these numbers."""
-    if not 0.0 < checks.fraction("confidence", confidence) < 1.0:
-        raise ValueError(f"confidence is {confidence:g}; expected more than 0 and less than 1")
-    checks.whole("resamples", resamples, MIN_RESAMPLES)
-    checks.whole("seed", seed, 0)
+def checked_resampling(confidence: float, resamples: int, seed: int) -> tuple[float, int, int]:
+    """Return these numbers, or raise ValueError unless intervals can be computed with them."""
+    if not 0.0 < (level := checks.fraction("confidence", confidence)) < 1.0:
+        raise ValueError(f"confidence is {level:g}; expected more than 0 and less than 1")
+    return (
+        level,
+        checks.whole("resamples", resamples, MIN_RESAMPLES, MAX_RESAMPLES),
+        checks.whole("seed", seed, 0),
+    )

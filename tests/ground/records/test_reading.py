@@ -222,7 +222,7 @@ def test_lines_that_read_a_national_format_run(write, package):
     if find_spec(package) is None:
         pytest.skip(f"{package} is not installed here: pip install {package}, and run this again")
     lines = (
-        OTHER_READERS.splitlines()[:4] if package == "gmprocess" else OTHER_READERS.splitlines()[4:]
+        OTHER_READERS.splitlines()[:5] if package == "gmprocess" else OTHER_READERS.splitlines()[5:]
     )
     code = "\n".join(["from topheavy import Record", *lines, "print(record)"])
     code = code.replace("FILE", str(write(KNET, "XXX0010101010000.EW")))
