@@ -6,75 +6,86 @@
 const LARGEST_FILE = 100e6; // bytes
 const LONGEST_STEP = 0.2; // s: a longer one is in ms
 const LARGEST = { acceleration: 5, stated: 2, velocity: 5 }; // g, g that the file calls g, and m/s
-const DECIMAL = "[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[ED][-+]?\\d+)?", IS_DECIMAL = new RegExp(`^${DECIMAL}$`, "i");
-const decimal = (text = "") => (IS_DECIMAL.test(text) ? Number(text.replace(/d/i, "e")) : NaN); // 1.0D-02 of Fortran, too
+const DECIMAL = /^[-+]?(\d+\.?\d*|\.\d+)(E[-+]?\d+)?$/i;
+const inC = (text) => text.replace(/(?<=[\d.])D(?=[-+\d])/gi, "E"); // 1.0D-02 of Fortran
+const decimal = (text = "") => (DECIMAL.test(inC(text.trim())) ? Number(inC(text)) : NaN);
 const brief = (number) => String(Number(number.toPrecision(4)));
 const quoted = (text) => `“${text.length > 80 ? `${text.slice(0, 80)}…` : text}”`;
 
-const SI = { "gal": 0.01, "m/s2": 1, "cm/s2": 0.01, "mm/s2": 1e-3 }, UNITS = { "g": 1, "%g": 0.01, "mg": 1e-3, "g/10": 0.1, "g/100": 0.01, "g/1000": 1e-3 }; // in g
-for (const [unit, size] of Object.entries(SI)) UNITS[unit] = size / GRAVITY;
+const UNITS = { "g": 1, "%g": 0.01, "mg": 1e-3 }; // in g
+for (const [unit, metres] of Object.entries({ "gal": 0.01, "m/s2": 1, "cm/s2": 0.01, "mm/s2": 1e-3 })) UNITS[unit] = metres / GRAVITY;
 const EXPECTED = Object.keys(UNITS).join(", ");
 
 /** One unit of acceleration in g, and one of time in s; undefined for another text. */
 function inG(unit) {
-  const plain = unit.normalize("NFKC").replace("−", "-").toLowerCase().replace(/[\s()^*'’]/g, "").replaceAll("sec", "s").replaceAll("/s/s", "/s2");
-  const name = plain.replace(/(?<=m)[.·⋅]?s-2$/, "/s2").replace("gals", "gal");
+  const plain = unit.normalize("NFKC").replaceAll("−", "-").toLowerCase().replace(/[\s()^*]|['’]s/g, "").replaceAll("sec", "s").replaceAll("/s/s", "/s2");
+  const name = plain.replace(/(?<=m)[.·⋅]?s-2$/, "/s2").replaceAll("gals", "gal");
   return Object.hasOwn(UNITS, name) ? UNITS[name] : undefined;
 }
-const inSeconds = (unit) => (/^(s|secs?|seconds?)$/i.test(unit) ? 1 : /^(ms|msecs?|milliseconds?)$/i.test(unit) ? 1e-3 : undefined);
+function inSeconds(unit) {
+  const match = unit.match(/^\s*(m|milli)?s(ecs?|econds?)?\s*$/i);
+  return match ? (match[1] ? 1e-3 : 1) : undefined;
+}
+
+// As in src/topheavy/ground/reading.py, whose regular expressions these are
+const STEP = "(?<step>[\\d.]+(?:[ED][-+]?\\d+)?)[ \\t]*\\(?(?<unit>(?!NPTS|UNIT)[A-Z]*)";
+const COUNT = /\bNPTS\s*[=:]\s*(?<size>\d+)/i, TIME = new RegExp(`\\bDT\\s*(?:\\((?<before>\\w+)\\)\\s*)?[=:]\\s*${STEP}`, "i");
+const OLD = new RegExp(`^\\s*(?<size>\\d+)[ \\t,]+${STEP}[ \\t,)]*NPTS`, "im");
+const STATED = "\\bunits?\\s*(?:of\\s+acc\\w*\\s*)?(?:\\b(?:of|are|is|in)\\b\\s*[:=]?|[:=])\\s*[(\\[]?";
+const UNIT = new RegExp(`(?:(${STATED})|[(\\[]|\\bacc\\w*\\s*[:=]\\s*|\\bunits?\\s+|\\bin\\s+(?!unit))(%\\s*g\\b|[^\\s,;()\\[\\]]+)(?!\\s*=)`, "gi");
+const CELL = /^\s*(.*?)\s*(?:[([]([^()[\]]*)[)\]]|\bin\s+(\S+(?:\s+g)?))?\s*$/i;
 
 /** An AT2 file: NPTS, DT and a unit in its first ten lines, then as many numbers. */
 function readAt2(lines) {
-  const find = (pattern) => lines.slice(0, 10).map((line, k) => ({ end: k + 1, ...line.match(new RegExp(pattern, "i"))?.groups })).find((found) => "at" in found);
-  const old = find(`^\\s*(?<at>\\d+)[\\s,]+(?<step>${DECIMAL})\\s*(?<behind>[A-Z]*)[\\s,]*NPTS`);
-  const points = find("\\bNPTS\\s*[=:]\\s*(?<at>\\d+)") ?? old, time = find(`\\bDT\\s*(?:\\((?<before>\\w+)\\)\\s*)?(?<at>[=:])\\s*(?<step>${DECIMAL})\\s*\\(?(?<behind>[A-Z]*)`) ?? old;
-  if (!points || !time) throw new Error("expected “NPTS= n, DT= s SEC” in the first ten lines, as in PEER's AT2");
-  const count = Number(points.at), end = Math.max(points.end, time.end);
-  const [word] = [time.before, time.behind].filter((unit) => unit && !/^(npts|units)$/i.test(unit)), second = word ? inSeconds(word) : 1;
-  if (second === undefined) throw new Error(`line ${time.end} gives DT in ${quoted(word)}; expected SEC or MSEC`);
-  if (!word && decimal(time.step) > LONGEST_STEP) throw new Error(`line ${time.end} gives a DT of ${time.step} without a unit; expected SEC or MSEC behind it`);
-  const texts = lines.slice(end).join(" ").match(/\S+/g) ?? [], values = texts.slice(0, count).map(decimal), wrong = values.findIndex(Number.isNaN);
+  const head = lines.slice(0, 10).join("\n"), old = head.match(OLD);
+  const [points, time] = COUNT.test(head) && TIME.test(head) ? [head.match(COUNT), head.match(TIME)] : [old, old];
+  if (!points) throw new Error("expected “NPTS= n, DT= s SEC” in the first ten lines, as in PEER's AT2");
+  const end = head.slice(0, Math.max(...[points, time].map((match) => match.index + match[0].length))).split("\n").length;
+  const size = Number(points.groups.size), word = time.groups.unit || time.groups.before, second = inSeconds(word || "s"), step = decimal(time.groups.step) * (second ?? 1);
+  if (second === undefined || (!word && step > LONGEST_STEP)) throw new Error(`DT is ${time.groups.step}${word ? ` ${word}` : ", without a unit"}; expected SEC or MSEC behind it`);
+  const texts = lines.slice(end).join(" ").match(/\S+/g) ?? [], values = texts.slice(0, size).map(decimal), wrong = values.findIndex(Number.isNaN);
   if (wrong >= 0) throw new Error(`sample ${wrong + 1} is ${quoted(texts[wrong])}; expected a number`);
-  if (values.length < count || /^[-+.\d]/.test(texts[count] ?? "")) throw new Error(`NPTS is ${count}, and ${values.length < count ? `only ${values.length}` : "more"} values follow; expected as many`);
-  return { step: decimal(time.step) * second, values, ...unitOf(lines.slice(0, end)) };
+  if (values.length < size || /^[-+.\d]/.test(texts[size] ?? "")) throw new Error(`NPTS is ${size}, and ${values.length < size ? `only ${values.length}` : "more"} values follow; expected as many`);
+  return { step, values, ...unitOf(lines.slice(0, end)) };
 }
 
 /** The one unit of acceleration that the lines of a header state. */
 function unitOf(header) {
-  const found = new Map(), add = (unit) => found.set(inG(unit), unit), bare = (match) => (match[1] ?? match[2]).replace(/[.:]+$/, "");
+  const units = new Map();
   for (const line of header) {
-    const stated = [...line.matchAll(/\bunits?\s*(?:of\s+acc\w*\s*)?(?:\b(?:of|are|is|in)\b\s*[:=]?|[:=])\s*[([]?(%\s*g\b|[^\s,;)\]]+)/gi)].map(bare);
-    const mentioned = [...line.matchAll(/[([]([^()[\]]+)[)\]]|(?:\bacc\w*\.?\s*[:=]|\bin)\s+(%\s*g\b|[^\s,;]+)/gi)].map(bare);
-    stated.filter((unit) => inSeconds(unit) === undefined).forEach(add);
-    if (!/\b(peak|pga|a?max\w*)\b/i.test(line)) mentioned.filter((unit) => inG(unit)).forEach(add);
+    for (const [, stated, text] of line.matchAll(UNIT)) {
+      const unit = text.replace(/[.:]+$/, ""), factor = inG(unit);
+      if (stated !== undefined ? !inSeconds(unit) : factor && !/\b(peak|pga|a?max\w*)\b/i.test(line)) units.set(factor, units.get(factor) ?? unit);
+    }
   }
-  const [[factor, unit] = []] = found;
-  if (found.size !== 1 || !factor) throw new Error(`the header states ${[...found.values()].map(quoted).join(" and ") || "no unit"} of acceleration; expected one of ${EXPECTED}, as in “UNITS: G”`);
+  const [[factor, unit] = []] = units;
+  if (units.size !== 1 || !factor) throw new Error(`the header states ${[...units.values()].map(quoted).join(" and ") || "no unit"} of acceleration; expected one of ${EXPECTED}, as in “UNITS: G”`);
   return { factor, unit };
 }
 
 /** The cells of a line of CSV, without quotes. */
 function cellsOf(line, mark) {
-  if (!line.includes('"')) return line.split(mark).map((cell) => cell.trim());
-  return line.split('"').map((part, k) => (k % 2 ? part : part.replaceAll(mark, "\n"))).join("").split("\n").map((cell) => cell.trim()); // every other part is quoted
+  if (!line.includes('"')) return line.split(mark);
+  const cell = new RegExp(`(?:^|[${mark}])(?:"((?:[^"]|"")*)"([^${mark}]*)|([^${mark}]*))`, "g");
+  return [...line.matchAll(cell)].map(([, inside, behind, plain]) => plain ?? inside.replaceAll('""', '"') + behind);
 }
 
 /** A CSV file: a line that names columns with units in its first thirty, then a line for each sample. */
 function readCsv(lines) {
   const separator = lines[0].match(/^sep=(.)/)?.[1];
-  let k = -1, mark, columns, times, found;
+  let k = -1, mark, columns, times, samples;
   do {
     if (++k === Math.min(30, lines.length)) throw new Error(`no line names columns of times and of accelerations with units, ${EXPECTED}; expected, for example, “time (s),acceleration (g)”`);
     mark = separator ?? [";", "\t"].find((each) => lines[k].includes(each)) ?? ",";
-    columns = cellsOf(lines[k].replace(/^[#%]+/, ""), mark).map((cell) => cell.match(/^(.*?)\s*(?:[([]([^()[\]]*)[)\]]|\bin\s+(\S+(?:\s+g)?))$/i) ?? []);
-    columns = columns.map(([, name = "", one, other]) => ({ name, unit: (one ?? other ?? "").trim() }));
+    columns = cellsOf(lines[k].replace(/^[#% ]+/, ""), mark).map((cell) => cell.match(CELL) ?? []);
+    columns = columns.map(([, name = "", one = "", other = ""]) => ({ name, unit: one + other }));
     times = [...columns.keys()].filter((j) => inSeconds(columns[j].unit));
-    found = [...columns.keys()].filter((j) => inG(columns[j].unit));
-  } while (!times.length || !found.length);
-  const said = `line ${k + 1} is ${quoted(lines[k])}`, [time, value] = [times[0], found[0]], { unit } = columns[value];
-  if (/period|freq/i.test(columns[time].name) || found.every((j) => /^(p?sa\b|spectr)/i.test(columns[j].name))) throw new Error(`${said}, of a response spectrum; expected a ground motion`);
-  if (found.length > 1) throw new Error(`${said}; expected one column of acceleration: leave out the others`);
-  const rows = lines.slice(k + 1).map((line, j) => ({ line, place: k + j + 2, cells: cellsOf(line, mark) })).filter(({ cells }) => cells.some(Boolean));
+    samples = [...columns.keys()].filter((j) => inG(columns[j].unit));
+  } while (!times.length || !samples.length);
+  const said = `line ${k + 1} is ${quoted(lines[k])}`, [time, value] = [times[0], samples[0]], { unit } = columns[value];
+  if (/period|freq|\bp?sa\b|spectr/i.test([time, ...samples].map((j) => columns[j].name).join(" "))) throw new Error(`${said}, of a response spectrum; expected a ground motion`);
+  if (samples.length > 1) throw new Error(`${said}; expected one column of acceleration: leave out the others`);
+  const rows = lines.slice(k + 1).map((line, j) => ({ line, place: k + j + 2, cells: cellsOf(line, mark) })).filter(({ cells }) => cells.some((cell) => cell.trim()));
   const [printed, values] = [time, value].map((j) => rows.map(({ line, place, cells }) => {
     const number = decimal(mark === "," ? cells[j] : cells[j]?.replace(",", "."));
     if (Number.isNaN(number)) throw new Error(`line ${place} is ${quoted(line)}; expected numbers in its columns ${time + 1} and ${value + 1} of ${columns.length}`);
@@ -88,10 +99,11 @@ function regularStep(times) {
   if (times.length < 2) throw new Error(`${times.length} samples; expected at least two`);
   const digitOf = (time) => 10 ** ((String(time).match(/e(.*)$/)?.[1] ?? 0) - (String(time).match(/\.(\d+)/)?.[1].length ?? 0));
   const digit = times.reduce((least, time) => Math.min(least, digitOf(time)), 1), steps = times.slice(1).map((time, k) => time - times[k]);
-  const step = (times.at(-1) - times[0]) / steps.length, usual = steps.toSorted((one, other) => one - other)[steps.length >> 1];
+  const step = (times.at(-1) - times[0]) / steps.length, sorted = steps.toSorted((one, other) => one - other), half = steps.length >> 1;
+  const usual = steps.length % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2; // the median
   const wrong = steps.findIndex((each, k) => Math.abs(times[k + 1] - times[0] - step * (k + 1)) > digit + 0.01 * Math.abs(step) || !(Math.abs(each - usual) < 0.5 * usual));
   if (wrong < 0) return step;
-  const why = digit > 0.5 * step ? `the times are printed to ${brief(digit)} only` : "is a sample missing, or the file not sampled evenly?";
+  const why = digit > 0.5 * step ? `the times are printed to ${brief(digit)} only` : "is a sample missing? If the sampling is uneven, resample it to equal steps";
   throw new Error(`the time ${times[wrong + 1]} follows ${times[wrong]}; expected equal steps of about ${brief(step)}: ${why}`);
 }
 
@@ -110,15 +122,23 @@ function doubts({ step, samples, peak, unit }) {
   ].filter(([is]) => is).map(([, text]) => text).join(" ");
 }
 
+/** The text of a file in UTF-8 or UTF-16, with or without its mark, or else of Windows. */
+function textOf(bytes) {
+  const encoding = { "255,254": "utf-16le", "254,255": "utf-16be" }[bytes.slice(0, 2).join()] ?? "utf-8";
+  try {
+    return new TextDecoder(encoding, { fatal: true }).decode(bytes);
+  } catch {
+    return new TextDecoder("windows-1252").decode(bytes);
+  }
+}
+
 /** The record in a file: its name, time step (s), samples (g), their peak, and what is doubtful. */
 function readRecord(file, bytes) {
   const [, name, ending = ""] = file.match(/^(.+)\.(at2|csv)$/is) ?? [], reader = { at2: readAt2, csv: readCsv }[ending.toLowerCase()];
-  const decoded = (encoding) => new TextDecoder(encoding).decode(bytes);
   try {
     if (!reader) throw new Error("expected a file whose name ends in .AT2 or .csv");
     if (bytes.length > LARGEST_FILE) throw new Error(`${bytes.length} bytes; expected at most ${LARGEST_FILE}: shorten the record`);
-    const inUnicode = decoded("utf-8"), text = inUnicode.includes("\ufffd") ? decoded("windows-1252") : inUnicode;
-    const { step, values, factor, unit } = reader(text.split(/\r\n|\r|\n/)), samples = Float64Array.from(values, (a) => a * factor);
+    const { step, values, factor, unit } = reader(textOf(bytes).split(/\r\n|\r|\n/)), samples = Float64Array.from(values, (a) => a * factor);
     const peak = samples.reduce((most, a) => Math.max(most, Math.abs(a)), 0);
     if (samples.length < 2) throw new Error(`${samples.length} samples; expected at least two`);
     if (!(step > 0 && step <= LONGEST_STEP)) throw new Error(`the time step is ${brief(step)} s; expected more than 0 and at most ${LONGEST_STEP} s: is it in ms?`);

@@ -4,6 +4,7 @@ import ast
 
 import pytest
 
+from tests.ground.records import test_reading as library
 from topheavy import read_record
 
 TIMES = [0.0, 0.02, 0.04, 0.06, 0.08]
@@ -11,18 +12,9 @@ SAMPLES = [0.1, -0.2, 0.4, 0.0, -0.3]
 AT2 = "A site\nACCELERATION IN UNITS OF G\n{}\n 0.1 -0.2 4.0D-01\n 0.0 -3.0E-01\n"
 ROWS = "".join(f"{t:.2f},{a}\n" for t, a in zip(TIMES, SAMPLES, strict=True))
 CSV = "time (s),acceleration (g)\n" + ROWS
-GALS = [f"{98.1 * 10 * a:.2f}" for a in SAMPLES]
-READ_AT2 = [
-    AT2.format("NPTS=  5, DT= .0200 SEC"),
-    AT2.format("  5   .0200   NPTS, DT"),
-    AT2.format("NPTS= 5\nDT= 20 MSEC"),
-    "\n" * 7 + AT2.format("NPTS: 5, DT(MSEC)= 20"),
-    AT2.format("NPTS= 5, DT= .02 UNITS: G") + "written by hand\n",
-    AT2.format("PEAK 4.0 (CM/S2)\nNPTS= 5 DT= .02").replace("\n", "\r\n"),
-]
 REFUSED_AT2 = [
-    (AT2.format("NPTS= 5, DT= .02 MIN"), "line 3 gives DT in “MIN”"),
-    (AT2.format("NPTS= 5, DT= 20"), "a DT of 20 without a unit"),
+    (AT2.format("NPTS= 5, DT= .02 MIN"), "DT is .02 MIN; expected SEC or MSEC"),
+    (AT2.format("NPTS= 5, DT= 20"), "DT is 20, without a unit"),
     (AT2.format("NPTS= 6, DT= .02"), "NPTS is 6, and only 5 values follow"),
     (AT2.format("NPTS= 4, DT= .02"), "NPTS is 4, and more values follow"),
     (AT2.format("NPTS= 5, DT= .02").replace("0.0", "O.0"), "sample 4 is “O.0”"),
@@ -30,14 +22,6 @@ REFUSED_AT2 = [
     (AT2.format("UNITS: CM/S2\nNPTS= 5, DT= .02"), "states “G” and “CM/S2”"),
     (AT2.format("NPTS= 5, DT= .02").replace("UNITS OF G", "VOLTS"), "states no unit"),
     (AT2.format("NPTS= 5, DT= .02").replace("UNITS OF G", "UNITS OF V"), "states “V”"),
-]
-READ_CSV = [
-    CSV,
-    '"Time [s]","NS (g)","free, text"\n' + ROWS.replace("\n", ',"a, b"\n'),
-    "sep=;\n" + CSV.replace(",", ";"),
-    CSV.replace(",", ";").replace(".", ","),
-    "station: é\n\n# time in s\tacceleration in g\n" + ROWS.replace(",", "\t") + "\t\n",
-    "t (ms),a (cm/s²)\n" + "".join(f"{1000 * t:g},{a}\n" for t, a in zip(TIMES, GALS, strict=True)),
 ]
 REFUSED_CSV = [
     ("t,a\n" + ROWS, "no line names columns of times and of accelerations with units"),
@@ -67,16 +51,6 @@ def read(browser, name, content):
         name,
         list(content if isinstance(content, bytes) else content.encode()),
     )
-
-
-@pytest.mark.parametrize(("ending", "files"), [("AT2", READ_AT2), ("csv", READ_CSV)])
-def test_file_is_read(browser, ending, files):
-    browser.open_to_compute()
-    for text in files:
-        for content in (text.encode("cp1252"), ("\ufeff" + text).encode()):
-            step, samples, _ = read(browser, f"motion.{ending}", content)
-            assert step == pytest.approx(0.02, rel=1e-12), text
-            assert samples == pytest.approx(SAMPLES, abs=1e-12), text
 
 
 @pytest.mark.parametrize(("ending", "files"), [("AT2", REFUSED_AT2), ("csv", REFUSED_CSV)])
@@ -112,20 +86,23 @@ def test_implausible_motion_is_doubted(browser, square):
 
 
 @pytest.mark.filterwarnings("ignore::UserWarning")
-@pytest.mark.parametrize(
-    ("ending", "taken", "refused"), [("AT2", READ_AT2, REFUSED_AT2), ("csv", READ_CSV, REFUSED_CSV)]
-)
-def test_library_takes_and_refuses_the_same_files(tmp_path, ending, taken, refused):
-    path = tmp_path / f"motion.{ending}"
-    for text in taken:
-        path.write_bytes(text.encode("cp1252"))
-        record = read_record(path)
-        assert record.time_step == pytest.approx(0.02, rel=1e-12), text
-        assert record.acceleration == pytest.approx(SAMPLES, abs=1e-12), text
-    for text, _ in refused:
-        path.write_text(text, encoding="utf-8")
-        with pytest.raises(ValueError, match="motion"):
-            read_record(path)
+def test_page_and_library_take_and_refuse_the_same_files(browser, tmp_path):
+    browser.open_to_compute()
+    units = [library.AT2.replace(library.IN_G, header) for header in library.IN_GAL]
+    refused = [text for text, _ in [*library.REFUSED, *REFUSED_AT2, *REFUSED_CSV]]
+    named = [(library.name_of(text), text) for text in [*units, *refused]]
+    for name, content in [*library.FILES, *named]:
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        shown = read(browser, name, content)
+        try:
+            record = read_record(path)
+        except ValueError:
+            assert isinstance(shown, str), content
+        else:
+            assert shown[0] == pytest.approx(record.time_step, rel=1e-12), content
+            assert shown[1] == pytest.approx(record.acceleration, abs=1e-12), content
+        assert isinstance(shown, str) == (content in refused)
 
 
 # In the page -------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """What is compiled is kept between processes."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -21,11 +22,13 @@ print(sum(next_tick.stats.cache_hits.values()))
 """
 
 
-def test_next_process_finds_what_one_has_compiled(tmp_path):
-    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+def test_next_process_finds_what_one_has_compiled_and_only_the_first_says_so(tmp_path):
+    options = {"env": os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}, "capture_output": True}
     command = [sys.executable, "-c", ASK]
-    hits = [subprocess.check_output(command, env=environment, text=True) for _ in range(2)]
-    assert [*map(int, hits)] == [0, 1]
+    runs = [subprocess.run(command, **options, text=True, check=True) for _ in range(2)]
+    assert [int(run.stdout) for run in runs] == [0, 1]
+    assert re.fullmatch(rf"The first call compiles .* kept in {tmp_path}.*\n", runs[0].stderr)
+    assert runs[1].stderr == ""
 
 
 @pytest.mark.parametrize("changed", ["kernel/rest.py", "kernel/step.py", "ground/shapes.py", OTHER])

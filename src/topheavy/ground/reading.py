@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import re
 from os import PathLike
@@ -37,9 +38,16 @@ NETWORKS = {
 }
 """How the first lines of their files begin; the first that fits counts."""
 
+UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+"""How such a file begins, for example "Unicode text" of Excel."""
+
 
 def read_record(
-    path: str | Path, column: str = "", *, time_step: float | None = None, unit: str | None = None
+    path: str | Path,
+    column: str | int = "",
+    *,
+    time_step: float | None = None,
+    unit: str | None = None,
 ) -> Record:
     """Read a record from a file: PEER AT2 or CSV as its name ends, or plain columns of numbers.
 
@@ -49,8 +57,9 @@ def read_record(
 
     Parameters
     ----------
-    column : str
-        Of a CSV with several columns of acceleration, the one to read.
+    column : str or int
+        Of a CSV with several columns of acceleration, the name of the one to read, or its number in
+        the file, counted from 1.
     time_step : float, optional
         s. In place of times that are not there, or have too few digits.
     unit : str, optional
@@ -76,7 +85,7 @@ def read_record(
         raise ValueError(f"path is {checks.short_repr(path)}; expected the path of a file")
     raw, ending = (path := Path(path)).read_bytes(), path.suffix.lower()
     try:
-        lines = raw.decode("utf-8-sig").splitlines()
+        lines = raw.decode("utf-16" if raw[:2] in UTF_16 else "utf-8-sig").splitlines()
     except UnicodeDecodeError:
         lines = raw.decode("cp1252", errors="replace").splitlines()
     try:
@@ -147,7 +156,7 @@ def _unit_of(header: list[str]) -> str:
 _CELL = re.compile(r"^\s*(.*?)\s*(?:[(\[]([^()\[\]]*)[)\]]|\bin\s+(\S+(?:\s+g)?))?\s*$")
 
 
-def _csv(path: Path, lines: list[str], column: str, time_step: float | None) -> Record:
+def _csv(path: Path, lines: list[str], column: str | int, time_step: float | None) -> Record:
     separator = re.match(r"sep=(.)", lines[0]) if lines else None
     for line in lines[:30]:
         mark = separator[1] if separator else next((m for m in ";\t" if m in line), ",")
@@ -162,17 +171,20 @@ def _csv(path: Path, lines: list[str], column: str, time_step: float | None) -> 
             break
     else:
         raise ValueError("expected a header such as 'time (s),acceleration (g)', with units")
-    listed = [names[k] for k in samples]
-    if re.search(r"period|freq|\bp?sa\b|spectr", " ".join([names[times[0]], *listed]), re.I):
+    listed = {k + 1: names[k] for k in samples}
+    texts = names[times[0]], *listed.values()
+    if re.search(r"period|freq|\bp?sa\b|spectr", " ".join(texts), re.I):
         raise ValueError(f"{line!r} is of a response spectrum; expected a ground motion")
-    samples = [k for k in samples if column.casefold() in ("", names[k].casefold())]
+    wanted = str(column).casefold()
+    samples = [k for k in samples if wanted in ("", names[k].casefold(), str(k + 1))]
     if len(samples) != 1:
-        raise ValueError(f"expected as `column` one of {', '.join(map(repr, listed))}")
+        numbered = ", ".join(f"{name!r} ({k})" for k, name in listed.items())
+        raise ValueError(f"expected as `column` the name or number of one of {numbered}")
     table, both, above = [], (times[0], samples[0]), lines.index(line)
     for row in (rows := csv.reader(lines[above + 1 :], delimiter=mark)):
         try:
             if any(map(str.strip, row)):
-                pair = [row[k] if mark == "," else row[k].replace(",", ".") for k in both]
+                pair = [_in_c(row[k] if mark == "," else row[k].replace(",", ".")) for k in both]
                 table.append([*map(float, pair)])
         except (ValueError, IndexError):
             place = above + 1 + rows.line_num
@@ -197,8 +209,8 @@ def _in_seconds(unit: str) -> float | None:
 
 
 def _in_c(text: str) -> str:
-    """Return numbers as C prints them: 1.0E-02, and not 1.0D-02 as Fortran."""
-    return re.sub(r"(?<=[\d.])D(?=[-+\d])", "E", text, flags=re.IGNORECASE)
+    """Return numbers as C prints them: 1.0E-02, not 1.0D-02 as Fortran; 1_0 is none."""
+    return re.sub(r"(?<=[\d.])D(?=[-+\d])", "E", text.replace("_", "__"), flags=re.IGNORECASE)
 
 
 def _regular_step(times: NDArray[np.float64]) -> float:
@@ -214,7 +226,10 @@ def _regular_step(times: NDArray[np.float64]) -> float:
         text = f"the time {time:.12g} follows {after:.12g}; expected steps of {step:.3g}: "
         if digit > 0.5 * step and uneven.mean() > 0.1:
             raise ValueError(f"{text}they are printed to {digit:g} only, so give `time_step` in s")
-        raise ValueError(f"{text}is a sample missing?")
+        raise ValueError(
+            f"{text}is a sample missing? If the sampling is uneven, resample it (numpy.interp); if "
+            "only the clock is, give `time_step` in s"
+        )
     return step
 
 

@@ -5,6 +5,7 @@ state of the kernel has a folder of its own for numba's cache.
 """
 
 import hashlib
+import logging
 import os
 import tempfile
 import warnings
@@ -36,12 +37,18 @@ SHARED_SOURCES = [Path(str(module.__file__)) for module in (shapes, pulses, free
 def writable_folder() -> Path | None:
     """Return the folder of this state of the kernel, or None with a warning if there can be none.
 
-    numba would look for another one, such as `__pycache__`, which no other state of the kernel has.
+    The logger "topheavy" says that the first call compiles, when the folder is empty. numba would
+    look for another one, such as `__pycache__`, which no other state of the kernel has.
     """
     try:
         folder = cache_folder() / state(Path(__file__).parent, *SHARED_SOURCES)[:16]
         folder.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
+        if not any(folder.iterdir()):
+            logging.getLogger("topheavy").warning(
+                "The first call compiles the solver for about half a minute; it is kept in %s",
+                folder,
+            )
     except (OSError, RuntimeError) as error:  # RuntimeError: the user has no home
         warnings.warn(
             f"the compiled solver cannot be kept ({error}), so that each process compiles it "

@@ -18,7 +18,8 @@ from topheavy.ground.reading import OTHER_READERS
 VALUES = "\n".join(f"{a:.7E}" for a in MOTION)
 AT2 = f"A title\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 400, DT= .0100 SEC\n{VALUES}\n"
 HEADER = "time (s),acceleration (g)"
-CSV = f"{HEADER}\n" + "".join(f"{t:.2f},{a:.6f}\n" for t, a in zip(TIME, MOTION, strict=True))
+BOTH = list(zip(TIME, MOTION, strict=True))
+CSV = f"{HEADER}\n" + "".join(f"{t:.2f},{a:.6f}\n" for t, a in BOTH)
 
 
 def timed(text):
@@ -55,34 +56,37 @@ IN_G = "ACCELERATION TIME SERIES IN UNITS OF G"
 RSPMATCH = f"Matched\n#Misfit: 0.1\nFile Type: Accelerations (g)\n#Id: x\n{NPTS}\n{VALUES}\n"
 
 
+FILES = [
+    ("an-UP.AT2", AT2),
+    ("rspmatch.at2", RSPMATCH),
+    ("two-lines.AT2", AT2.replace(NPTS, "NPTS= 400\nDT= .01 SEC")),
+    ("old.AT2", AT2.replace(NPTS, " 400  .0100  NPTS, DT")),
+    ("ms.AT2", AT2.replace(NPTS, "NPTS=400 DT= 10 MSEC, 5E15.7")),
+    ("before.AT2", AT2.replace(NPTS, "NPTS: 400, DT(MSEC)= 10")),
+    ("reversed.AT2", AT2.replace(NPTS, "DT= 1.0D-02 NPTS= 400").replace("E-", "D-")),
+    ("peak.AT2", AT2.replace("A title", "Peak (cm/s2) 277 at Unit 4\nTIME UNITS: SEC")),
+    ("text-behind.AT2", AT2 + "END OF FILE 12\n"),
+    ("lines.AT2", AT2.replace("\n", "\r\n")),
+    ("mark.AT2", "\ufeff" + AT2),
+    ("windows.AT2", AT2.replace("A title", "Kütahya").encode("cp1254")),
+    ("plain.csv", CSV),
+    ("quoted.csv", CSV.replace(HEADER, '"time (s)","acceleration (g)"')),
+    ("empty-rows.csv", CSV + "\n,\n,\n"),
+    ("sep.csv", "sep=;\n" + CSV.replace(",", ";")),
+    ("decimal-commas.csv", CSV.replace(",", ";").replace(".", ",")),
+    ("tabs.csv", CSV.replace(",", "\t")),
+    ("in.csv", CSV.replace(HEADER, "Time in sec,acceleration in g")),
+    ("comments.csv", "% a site\n# " + CSV),
+    ("above.csv", "Station,ABC\nPeak,0.28\n\n" + CSV),
+    ("utf-16.csv", CSV.replace(",", "\t").encode("utf-16")),
+    ("big-endian.AT2", b"\xfe\xff" + AT2.encode("utf-16-be")),
+    ("fortran.csv", HEADER + "".join(f"\n{t:.2f},{a:.7E}".replace("E", "D") for t, a in BOTH)),
+    ("computed.csv", timed(lambda t: repr(t * 1000.0)).replace("time (s)", "t [ms]")),
+]  # fmt: skip
+
+
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("an-UP.AT2", AT2),
-        ("rspmatch.at2", RSPMATCH),
-        ("two-lines.AT2", AT2.replace(NPTS, "NPTS= 400\nDT= .01 SEC")),
-        ("old.AT2", AT2.replace(NPTS, " 400  .0100  NPTS, DT")),
-        ("ms.AT2", AT2.replace(NPTS, "NPTS=400 DT= 10 MSEC, 5E15.7")),
-        ("before.AT2", AT2.replace(NPTS, "NPTS: 400, DT(MSEC)= 10")),
-        ("reversed.AT2", AT2.replace(NPTS, "DT= 1.0D-02 NPTS= 400").replace("E-", "D-")),
-        ("peak.AT2", AT2.replace("A title", "Peak (cm/s2) 277 at Unit 4\nTIME UNITS: SEC")),
-        ("text-behind.AT2", AT2 + "END OF FILE 12\n"),
-        ("lines.AT2", AT2.replace("\n", "\r\n")),
-        ("mark.AT2", "\ufeff" + AT2),
-        ("windows.AT2", AT2.replace("A title", "Kütahya").encode("cp1254")),
-        ("plain.csv", CSV),
-        ("quoted.csv", CSV.replace(HEADER, '"time (s)","acceleration (g)"')),
-        ("empty-rows.csv", CSV + "\n,\n,\n"),
-        ("sep.csv", "sep=;\n" + CSV.replace(",", ";")),
-        ("decimal-commas.csv", CSV.replace(",", ";").replace(".", ",")),
-        ("tabs.csv", CSV.replace(",", "\t")),
-        ("in.csv", CSV.replace(HEADER, "Time in sec,acceleration in g")),
-        ("comments.csv", "% a site\n# " + CSV),
-        ("above.csv", "Station,ABC\nPeak,0.28\n\n" + CSV),
-        ("computed.csv", timed(lambda t: repr(t * 1000.0)).replace("time (s)", "t [ms]")),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("name", "text"), FILES)
 def test_file_of_the_motion_is_read(write, name, text):
     record = read_record(write(text, name))
     assert record.time_step == pytest.approx(0.01, rel=1e-12)
@@ -90,72 +94,81 @@ def test_file_of_the_motion_is_read(write, name, text):
     assert (record.name, record.start) == (name.rpartition(".")[0], 0.0)
 
 
-@pytest.mark.parametrize(
-    "header",
-    [
-        "UNITS: CM/S/S",
-        "The units are (cm/s²)",
-        "ACCELERATION IN gal",
-        "ACCELERATION HISTORY IN UNITS OF CM/SEC2.  FILTER POINTS: HP=0.1 Hz",
-        "points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.4)",
-        "Accel. [cm/s^2]",
-        "UNITS OF CM/SEC/SEC (GAL)",
-        "UNITS gal (g = 980.665 cm/s2)",
-    ],
-)
+IN_GAL = [
+    "UNITS: CM/S/S",
+    "The units are (cm/s²)",
+    "ACCELERATION IN gal",
+    "ACCELERATION HISTORY IN UNITS OF CM/SEC2.  FILTER POINTS: HP=0.1 Hz",
+    "points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.4)",
+    "Accel. [cm/s^2]",
+    "UNITS OF CM/SEC/SEC (GAL)",
+    "UNITS gal (g = 980.665 cm/s2)",
+]
+
+
+@pytest.mark.parametrize("header", IN_GAL)
 def test_unit_is_read_where_the_header_states_it(write, header):
     record = read_record(write(AT2.replace(IN_G, header)))
     np.testing.assert_allclose(record.acceleration, MOTION / 981.0, atol=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("text", "says"),
-    [
-        (AT2.replace(IN_G, "ACCELERATION"), "the header states no unit; expected one of g, %g"),
-        (AT2.replace(IN_G, "UNITS: METRIC"), "the header states 'METRIC'"),
-        (AT2.replace(IN_G, "ACCELERATION, SI [m/s/s/s]"), "the header states no unit"),
-        (AT2.replace(IN_G, "UNITS: COUNTS (g)"), "the header states 'COUNTS' and 'g'"),
-        (AT2.replace("A title", "A (cm/s²)"), "the header states 'cm/s²' and 'G'"),
-        (AT2.replace(IN_G, "PGA (g) = 0.319"), "the header states no unit"),
-        (AT2.replace("NPTS= 400", "NPTS= 401"), "NPTS is 401, and 400 values follow"),
-        (AT2.replace("NPTS= 400", "NPTS= 399"), "NPTS is 399, and 400 values follow"),
-        (AT2.replace("NPTS= 400", "N= 400"), "expected 'NPTS= n, DT= s SEC' in the first ten"),
-        (AT2.replace("A title", "\n" * 9), "expected 'NPTS= n, DT= s SEC' in the first ten"),
-        (AT2.replace(".0100 SEC", "10"), "DT is 10 ; expected SEC or MSEC"),
-        (AT2.replace(".0100 SEC", "10 MIN"), "DT is 10 MIN; expected SEC or MSEC"),
-        (AT2.replace(VALUES[:13], "x"), "could not convert string to float: .*'x'"),
-        (AT2.replace(VALUES[:13], "nan"), "the largest acceleration is nan g"),
-        (AT2.replace("E-01", "E+01"), r"largest acceleration is 28\.\d+ g; .* at most 5 g"),
-        (AT2.replace(VALUES, "0\n" * 400), "largest acceleration is 0 g"),
-        (CSV.replace(HEADER, "Period (s),Sa (g)"), "is of a response spectrum"),
-        (CSV.replace(HEADER, "T (s),PSA (g)"), "is of a response spectrum"),
-        (CSV.replace("0.03,", "0.034,"), "0.034 follows 0.02; .* is a sample missing"),
-        (re.sub("2.00,.*\n", "", CSV), "2.01 follows 1.99; .* is a sample missing"),
-        (timed(lambda t: f"{t + 0.003 * (t == 2.0):.3f}"), "2.003 follows 1.99; .* a sample miss"),
-        (COARSE, "0.01 follows 0.01; .* printed to 0.01 only, so give `time_step`"),
-        (timed(lambda t: f"{t * 1000:.0f}"), "the time step is 10 s; .* 0.2 s: is it in ms"),
-        (CSV.replace("(s)", ""), r"expected a header such as 'time \(s\),acceleration \(g\)'"),
-        (CSV.replace("(g)", "(counts)"), "expected a header such as"),
-        (CSV.replace("(g)", "(g),b (g)"), "expected as `column` one of 'acceleration', 'b'"),
-        (CSV.replace("0.05,", "0.05;"), r"line 7 is '0\.05;.*; expected numbers"),
-        (HEADER, "0 samples; expected at least two"),
-        ("", "expected a header such as"),
-        (b"\xff\xfet\0", "expected a header such as"),
-    ],
-)
+REFUSED = [
+    (AT2.replace(IN_G, "ACCELERATION"), "the header states no unit; expected one of g, %g"),
+    (AT2.replace(IN_G, "UNITS: METRIC"), "the header states 'METRIC'"),
+    (AT2.replace(IN_G, "ACCELERATION, SI [m/s/s/s]"), "the header states no unit"),
+    (AT2.replace(IN_G, "UNITS: COUNTS (g)"), "the header states 'COUNTS' and 'g'"),
+    (AT2.replace("A title", "A (cm/s²)"), "the header states 'cm/s²' and 'G'"),
+    (AT2.replace(IN_G, "PGA (g) = 0.319"), "the header states no unit"),
+    (AT2.replace("NPTS= 400", "NPTS= 401"), "NPTS is 401, and 400 values follow"),
+    (AT2.replace("NPTS= 400", "NPTS= 399"), "NPTS is 399, and 400 values follow"),
+    (AT2.replace("NPTS= 400", "N= 400"), "expected 'NPTS= n, DT= s SEC' in the first ten"),
+    (AT2.replace("A title", "\n" * 9), "expected 'NPTS= n, DT= s SEC' in the first ten"),
+    (AT2.replace(".0100 SEC", "10"), "DT is 10 ; expected SEC or MSEC"),
+    (AT2.replace(".0100 SEC", "10 MIN"), "DT is 10 MIN; expected SEC or MSEC"),
+    (AT2.replace(VALUES[:13], "x"), "could not convert string to float: .*'x'"),
+    (AT2.replace(VALUES[:13], "nan"), "the largest acceleration is nan g"),
+    (AT2.replace("E-01", "E+01"), r"largest acceleration is 28\.\d+ g; .* at most 5 g"),
+    (AT2.replace(VALUES, "0\n" * 400), "largest acceleration is 0 g"),
+    (CSV.replace(HEADER, "Period (s),Sa (g)"), "is of a response spectrum"),
+    (CSV.replace(HEADER, "T (s),PSA (g)"), "is of a response spectrum"),
+    (CSV.replace("0.03,", "0.034,"), "0.034 follows 0.02; .* is a sample missing"),
+    (re.sub("2.00,.*\n", "", CSV), "2.01 follows 1.99; .* is a sample missing"),
+    (timed(lambda t: f"{t + 0.003 * (t == 2.0):.3f}"), "2.003 follows 1.99; .* resample it"),
+    (COARSE, "0.01 follows 0.01; .* printed to 0.01 only, so give `time_step`"),
+    (timed(lambda t: f"{t * 1000:.0f}"), "the time step is 10 s; .* 0.2 s: is it in ms"),
+    (CSV.replace("(s)", ""), r"expected a header such as 'time \(s\),acceleration \(g\)'"),
+    (CSV.replace("(g)", "(counts)"), "expected a header such as"),
+    (CSV.replace("(g)", "(g),b (g)"), r"as `column` .* 'acceleration' \(2\), 'b' \(3\)"),
+    (AT2.replace(IN_G, "UNITS: G/10"), "the header states 'G/10'; expected one of g, %g"),
+    (AT2.replace(VALUES[:13], "1_0"), "could not convert string to float: .*'1__0'"),
+    (CSV.replace("0.05,", "0.05;"), r"line 7 is '0\.05;.*; expected numbers"),
+    (HEADER, "0 samples; expected at least two"),
+    ("", "expected a header such as"),
+    (b"\xff\xfet\0", "expected a header such as"),
+]
+
+
+def name_of(text):
+    """The name of a file of this text."""
+    return "motion.AT2" if re.search("NPTS|DT=", str(text)) else "motion.csv"
+
+
+@pytest.mark.parametrize(("text", "says"), REFUSED)
 def test_bad_file_is_refused_with_its_name_and_the_reason(write, text, says):
-    name = "motion.AT2" if "DT=" in str(text) else "motion.csv"
-    with pytest.raises(ValueError, match=rf"(?s){name}: .*{says}"):
-        read_record(write(text, name))
+    with pytest.raises(ValueError, match=rf"(?s){name_of(text)}: .*{says}"):
+        read_record(write(text, name_of(text)))
 
 
-def test_column_is_named(write):
-    both = write("Zeit;Time [s];N (gal);E (gal)\n0:0;2;0;0\n0:0;2,1;9;1\n0:0;2,2;-9;2\n", "a.csv")
-    record = read_record(both, "n")
-    assert record.peak_acceleration == pytest.approx(9 / 981.0)
-    assert (record.start, record.time_step) == (2.0, pytest.approx(0.1))
-    with pytest.raises(ValueError, match="expected as `column` one of 'N', 'E'"):
-        read_record(both, "Z")
+def test_column_is_named_or_numbered_and_a_start_in_ms_is_scaled(write):
+    text = "Zeit;Time [s];N (gal);E (gal)\n0:0;2;0;0\n0:0;2,1;9;1\n0:0;2,2;-9;2\n"
+    in_ms = re.sub(r"(?m):0;2,?(\d)?", lambda m: f":0;2{m[1] or 0}00", text).replace("[s]", "[ms]")
+    for content in (text, in_ms, text.replace("E (gal)", "N (gal)")):
+        for column in ("n", 3)[content.count("N (gal)") - 1 :]:
+            record = read_record(write(content, "a.csv"), column)
+            assert record.peak_acceleration == pytest.approx(9 / 981.0)
+            assert (record.start, record.time_step) == (2.0, pytest.approx(0.1))
+    with pytest.raises(ValueError, match=r"name or number of one of 'N' \(3\), 'N' \(4\)"):
+        read_record(write(content, "a.csv"), "n")
 
 
 def test_plain_numbers_are_read_with_a_given_unit(write):
