@@ -223,7 +223,7 @@ def test_solver_that_differs_stops_verification(row, change, words):
 
 
 def test_sample_of_verification_is_half_at_boundaries():
-    settings = CONFIG["verification"] | {"cells": 8}
+    settings = CONFIG["verification"] | {"sample": 8}
     sample = list(verification.cells(settings, "one-sine", True))
     near = [judge(block, pulse.scaled(0.98)).overturned for block, pulse in sample[1::2]]
     beyond = [judge(block, pulse.scaled(1.02)).overturned for block, pulse in sample[1::2]]
