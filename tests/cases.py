@@ -2,12 +2,14 @@
 
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import topheavy as th
+from documents import check
 from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact as closed
 from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES
@@ -23,6 +25,13 @@ SIZES = {"half_width": 0.5, "half_height": 3.0}
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 SIDES = pytest.mark.parametrize("side", [1.0, -1.0])
 CLOSED_PULSES = [shape for shape in ELEMENTARY if shape in FINITE_SHAPES]
+
+
+@cache
+def published():
+    """Return the findings of the published tables by rule, once for all tests of a process."""
+    return check.findings(check.read("rules"))
+
 
 NAMES = {th.simulate: "Taylor", plain.simulate: "plain", closed: "closed"}
 CLOSE = {th.simulate: 1e-8, plain.simulate: 1e-8, closed: 1e-13}

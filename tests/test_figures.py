@@ -11,6 +11,7 @@ from collections import defaultdict
 from inspect import signature
 from itertools import pairwise
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import pytest
@@ -19,8 +20,9 @@ from matplotlib.colors import to_hex
 from matplotlib.offsetbox import AnnotationBbox
 from matplotlib.text import Annotation
 
+from documents.publish import PICTURES
 from replication.config import read_yaml
-from replication.drawing import shades
+from replication.drawing import picture, shades
 from tests.cases import ROOT
 
 INK, GREY, PALE, WHITE = "#1a1a1a", "#737373", "#f2f2f2", "#ffffff"
@@ -29,6 +31,7 @@ MODEL, FIXED, FORCE, STONE, CAP = "#6a3d9a", "#8c6d00", "#0b6e99", "#e8e5df", "#
 LIGHT, MIDDLE, DARK = (to_hex(colour) for colour in shades(3))  # the column, γ = 1 and γ → ∞
 BOTH, AT_ONCE, ROCKS = "#f1d3c6", "#db8d6a", "#d0e3df"  # areas
 CONFIG = read_yaml(ROOT / "config/config.yaml")
+CAPTIONS = read_yaml(ROOT / "figures/captions.yaml")
 SPECTRA_COLOURS = {0.0: LIGHT, 1.0: MIDDLE, math.inf: DARK}
 
 
@@ -627,3 +630,16 @@ def test_free_body_is_in_equilibrium_and_moves_as_the_equations_say(monkeypatch)
     arms = seats - moved.mean(axis=0)
     forces = np.array([[x1, z1], [x2, z2]])
     assert arms[:, 0] @ forces[:, 1] == pytest.approx(arms[:, 1] @ forces[:, 0])
+
+
+NUMBER = re.compile(r"-?\d+\.\d+")
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_published_picture_is_drawn_from_the_published_tables(name, monkeypatch):
+    with mpl.rc_context(fname=ROOT / "figures/style.mplstyle"):
+        made = picture(drawn(name, monkeypatch), CAPTIONS[name]["title"], CAPTIONS[name]["alt"])
+    shown = (ROOT / f"docs/{name}.svg").read_text("utf-8")
+    assert NUMBER.sub("#", shown) == NUMBER.sub("#", made)
+    ours, theirs = ([*map(float, NUMBER.findall(text))] for text in (made, shown))
+    np.testing.assert_allclose(theirs, ours, atol=0.01)  # points

@@ -3,15 +3,18 @@
 import json
 import re
 import shutil
+from collections import Counter
 from copy import deepcopy
+from io import BytesIO
 
 import pandas as pd
 import pytest
+from pypdf import PdfReader
 
-from documents.check import REFERENCE, findings, published
-from documents.typeset import checked, texts_of
+from documents import check
+from documents.typeset import checked, compiled, texts_of
 from replication.config import read_yaml
-from tests.cases import ROOT
+from tests.cases import ROOT, published
 
 DOCUMENTS = {name: f"paper/{name}.typ" for name in ("report", "supplement")}
 CONFIG = read_yaml(str(ROOT / "config/config.yaml"))
@@ -23,13 +26,30 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("documents")
     shutil.copytree(ROOT / "paper", folder / "paper")
     shutil.copy(ROOT / "CITATION.cff", folder)
-    shutil.copytree(REFERENCE, folder / "results/tables")
+    shutil.copytree(check.REFERENCE, folder / "results/tables")
     (folder / "results/findings").mkdir()
-    rules = json.loads((REFERENCE / "rules.json").read_text("utf-8"))
-    for rule, content in findings(rules).items():
+    for rule, content in published().items():
         (folder / f"results/findings/{rule}.json").write_text(json.dumps(content))
-    (folder / "results/claims.json").write_text(json.dumps(published()))
+    (folder / "results/claims.json").write_text(json.dumps(check.published(published())))
     return folder
+
+
+BLANK = '<svg xmlns="http://www.w3.org/2000/svg" width="500" height="160"></svg>'
+
+
+def text_of(pdf):
+    return Counter(word for page in PdfReader(pdf).pages for word in page.extract_text().split())
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_published_pdf_has_the_words_and_numbers_of_the_published_tables(document, folder):
+    for name in read_yaml(ROOT / "figures/captions.yaml"):  # their text is drawn, not written
+        path = folder / f"figures/{name}.svg"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(BLANK, "utf-8")
+    texts = texts_of(CONFIG, str(ROOT / "figures/captions.yaml"))
+    made = compiled(DOCUMENTS[document], texts, str(folder), pdf_standards=["a-2b"])
+    assert text_of(ROOT / f"docs/{document}.pdf") == text_of(BytesIO(made))
 
 
 def typeset(folder, document, config=CONFIG):
