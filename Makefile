@@ -46,6 +46,7 @@ lint: | $(UV) ## check style, types, spelling and the rules; changes nothing
 	$(DEV) snakefmt --check --compact-diff Snakefile rules studies
 	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yaml
+	$(DEV) check-jsonschema --builtin-schema vendor.dependabot .github/dependabot.yml
 	$(UV) export --locked --no-dev $(EXPORT) | cmp - requirements.txt
 EXPORT = --no-hashes --no-header --no-annotate --no-emit-project
 

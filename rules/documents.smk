@@ -42,7 +42,14 @@ for part in ["paper", "beyond"]:
             captions="figures/captions.yaml",
             style="figures/style.mplstyle",
         output:
-            [path.replace(".py", ".svg") for path in scripts],
+            [
+                report(
+                    path.replace(".py", ".svg"),
+                    caption="report.rst",
+                    category="Figures",
+                )
+                for path in scripts
+            ],
         log:
             f"results/logs/{part}_figures.log",
         benchmark:
@@ -52,7 +59,9 @@ for part in ["paper", "beyond"]:
             config={
                 name: PAPER[name]
                 for name in (
-                    ["structures", "motions"] if part == "beyond" else ["spectra", "allen"]
+                    ["structures", "motions"]
+                    if part == "beyond"
+                    else ["spectra", "allen"]
                 )
             },
         message:
@@ -159,7 +168,7 @@ rule verdicts:
         claims="results/claims.json",
         captions="figures/captions.yaml",
     output:
-        "results/verdicts.md",
+        report("results/verdicts.md", caption="report.rst", category="Verdicts"),
     log:
         "results/logs/verdicts.log",
     benchmark:
