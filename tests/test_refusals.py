@@ -115,7 +115,7 @@ def test_what_is_no_structure_is_refused(solver, structure):
     refused(solver, "structure is .*; expected a Column, a RockingFrame", structure=structure)
 
 
-@pytest.mark.parametrize("solver", [*HISTORIES, *JUDGES])
+@pytest.mark.parametrize("solver", [th.simulate, *JUDGES])
 @pytest.mark.parametrize("motion", [np.arange(1e4), "one-sine", th.Pulse], ids=type)
 def test_what_is_no_ground_motion_is_refused_with_an_example(solver, motion):
     says = r"excitation is .*; expected a Pulse or a Record, for example Pulse\(\"one-sine\", 0\.3"
@@ -123,8 +123,7 @@ def test_what_is_no_ground_motion_is_refused_with_an_example(solver, motion):
     if solver in JUDGES:
         refused(solver, "excitation is None; expected a Pulse or a Record", excitation=None)
     needed = ".* goes on forever; expected" if solver in JUDGES else "duration is"
-    if solver is not BODIES:
-        refused(solver, needed, excitation=NEVER_ENDS)
+    refused(solver, needed, excitation=NEVER_ENDS)
 
 
 @pytest.mark.parametrize("solver", HISTORIES)
@@ -162,7 +161,7 @@ def test_tolerance_at_the_ends_of_its_range_gives_histories(value):
     assert whole.peak_rotation == pytest.approx(usual, rel=0.05)
 
 
-@pytest.mark.parametrize("solver", TOLERANT)
+@pytest.mark.parametrize("solver", [th.simulate, *JUDGES])
 @pytest.mark.parametrize(
     ("motion", "up", "message"),
     [

@@ -10,9 +10,8 @@ import pytest
 
 import topheavy.ground.shapes
 from replication.sections import Shape
-from tests.cases import SIDES
+from steps.shared.segments import segments_of
 from topheavy import Pulse
-from topheavy.ground.excitation import Segment, zero_acceleration
 from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES, PULSE_SHAPES, SHAPES
 
 OMEGA = 2.5
@@ -82,7 +81,7 @@ def test_pulse_of_several_cycles_repeats_its_first_and_then_ends(shape):
     assert not three.excitation(PERIOD * np.array([3.001, 3.5])).any()
     assert three.scaled(2.0) == Pulse(shape, 0.6, OMEGA, cycles=3) != pulse(shape, 0.6)
     assert "cycles=3" in repr(three)
-    turns = [segment.stop for segment in three.segments(math.inf)][:-1]
+    turns = [segment.stop for segment in segments_of(three, three.duration)][:-1]
     assert len(turns) == (6 if shape == "one-sine" else 5)
     assert three.excitation(np.array(turns)) == pytest.approx(
         0.3 * np.sign(three.excitation(turns))
@@ -188,49 +187,3 @@ def test_config_takes_the_shapes_that_end_and_no_other():
 def test_list_of_shapes_needs_no_numerics():
     source = Path(topheavy.ground.shapes.__file__).read_text(encoding="utf-8")
     assert re.findall(r"^(?:from|import) (\w+)", source, re.MULTILINE) == ["math", "typing"]
-
-
-def line(start, stop, first, last):
-    return Segment(start, stop, lambda t: first + (last - first) * (t - start) / (stop - start))
-
-
-@SIDES
-@pytest.mark.parametrize(
-    ("first", "last", "since", "at"),
-    [
-        # against the side on which the block stands
-        *((0.6, 0.2, 0.0, 1.5), (0.2, 0.6, 0.0, 2.0)),
-        # a push that stays up does so to the stop
-        *((*ends, 0.0, 2.0) for ends in ((0.3, 0.6), (0.6, 0.3), (0.3, 0.3), (0.4, 0.4))),
-        # one that retreats from the level ends where it starts, or is below it already
-        *((0.3, 0.1, 0.0, 0.0), (0.3, 0.1, 0.5, 0.5), (0.6, 0.2, 1.8, 1.8)),
-        # a rounding below the level, as after an uplift whose instant was found by a root
-        (math.nextafter(0.3, 0.0), 0.6, 0.0, 2.0),
-        (0.5, -1.5, 0.0, 0.2),  # at the level, not at zero
-    ],
-)
-def test_push_ends_where_it_falls_below_the_level(side, first, last, since, at):
-    ground = line(0.0, 2.0, -side * first, -side * last)
-    assert ground.falls_below(since, int(side), 0.3) == pytest.approx(at, rel=1e-13)
-
-
-@pytest.mark.parametrize(
-    ("start", "stop", "largest"),
-    [
-        *((1.0, 3.0, 0.5), (0.0, 9.0, 0.5), (1.5, 2.0, 0.25)),  # all of it, more, a part
-        *((2.5, 9.0, 0.5), (0.0, 1.5, 0.5)),  # over an end
-        *((2.0, 2.0, 0.0), (3.0, 4.0, 0.5)),  # an instant, its last one
-        *((3.5, 4.0, 0.0), (0.0, 0.5, 0.0)),  # behind it and before
-    ],
-)
-def test_largest_is_over_the_overlap_alone(start, stop, largest):
-    through = line(1.0, 3.0, -0.5, 0.5)
-    assert through.largest(start, stop) == pytest.approx(largest, abs=1e-15)
-    assert zero_acceleration(0.0) == zero_acceleration(-3.0) == zero_acceleration(1e9) == 0.0
-
-
-def test_least_gravity_of_a_segment_is_that_of_its_lower_end():
-    for low, high in ((0.5, 1.5), (1.5, 0.5)):
-        segment = Segment(0.0, 1.0, lambda t: 0.0, lambda t, a=low, b=high: a + (b - a) * t)
-        least = [segment.least_gravity(*over) for over in ((-1.0, 2.0), (0.0, 0.5), (2.0, 3.0))]
-        assert least == [0.5, min(low, 1.0), 1.0]

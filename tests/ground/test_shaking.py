@@ -8,9 +8,7 @@ import pytest
 
 import topheavy as th
 from steps.shared import plain
-from steps.shared.three_bodies import simulate_three_bodies
 from tests.cases import RECORDS
-from topheavy.ground.vertical import TwoComponents
 
 COLUMN = th.Column(0.5, 3.0)
 FRAME = th.RockingFrame(COLUMN, 1.0)
@@ -37,41 +35,6 @@ def test_constant_vertical_acceleration_is_another_gravity():
     other = plain.simulate(heavier, SHAKE.scaled(1.0 / share), samples=TIME[:200])
     assert np.abs(other.rotation).max() > 0.1 * COLUMN.slenderness
     np.testing.assert_allclose(lighter.rotation, other.rotation, atol=1e-9)
-
-
-def test_samples_that_more_than_rounding_keeps_apart_begin_segments_of_their_own():
-    ground = TwoComponents(th.Record(0.05, np.ones(61)), th.Record(0.0501, np.ones(61)))
-    assert len(ground.segments(math.inf)) == 120
-
-
-SOLVERS = (
-    th.simulate,
-    th.judge,
-    plain.simulate,
-    plain.judge,
-    lambda *arguments, **options: th.overturned_by(*arguments, [1.0], **options),
-)
-
-
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_vertical_of_another_kind_is_refused(solver):
-    for shaking, up in ((th.Pulse("one-sine", 0.3, 6.0), UP), (SHAKE, 0.1), (SHAKE, [0.1, 0.2])):
-        says = rf"excitation is {type(shaking).__name__} and vertical {type(up).__name__}; expected"
-        with pytest.raises(ValueError, match=says):
-            solver(FRAME, shaking, vertical=up)
-
-
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_ground_that_falls_from_under_the_structure_is_refused(solver):
-    falling = th.Record(0.05, np.array([0.0, 0.4, -0.8, -1.25, 0.0]))
-    says = (
-        r"^vertical: at 0\.15 s its acceleration times 1 is -1\.25 g; expected more than −1 g, .*"
-        r"factors less than 0\.8 are allowed$"
-    )
-    with pytest.raises(ValueError, match=says):
-        solver(FRAME, SHAKE, vertical=falling)
-    with pytest.raises(ValueError, match=r"at 0\.05 s .* is -1 g; expected more than −1 g"):
-        solver(FRAME, SHAKE, vertical=th.Record(0.05, [0.0, -1.0, 0.0]))
 
 
 def test_search_is_refused_for_its_largest_factor_alone():
@@ -113,34 +76,15 @@ def test_both_solvers_agree(up, linearised, factor):
     off = ours.rotation[known] - theirs.rotation[known]
     assert np.abs(off).max() < 1e-7 * block.slenderness
     assert known.sum() > 100
-    impacts = theirs.impact_times[
-        theirs.impact_times <= 6.0
-    ]  # the plain solver goes on to the outcome
-    np.testing.assert_allclose(ours.impact_times, impacts, atol=1e-5)
+    impacts = theirs.impact_times  # the plain solver goes on to the outcome
+    np.testing.assert_allclose(ours.impact_times, impacts[impacts <= 6.0], atol=1e-5)
     level = th.simulate(block, shaking, samples=TIME, duration=6.0)
     moved = np.abs(ours.rotation - level.rotation)
     assert np.nanmax(moved) > 1e-3 * block.slenderness
-    alone, other = (
-        th.judge(block, shaking, vertical=up),
-        plain.judge(block, shaking, vertical=up),
-    )
-    assert (alone.overturned, alone.number_of_impacts) == (
-        other.overturned,
-        other.number_of_impacts,
-    )
-    np.testing.assert_allclose(
-        alone.peak_rotation, other.peak_rotation, rtol=0, atol=1e-8 * block.slenderness
-    )
-
-
-@pytest.mark.parametrize("gamma", [0.0, 1.0])
-def test_three_bodies_move_as_the_taylor_solver_says(gamma):
-    frame = th.RockingFrame(COLUMN, gamma)
-    ours = th.simulate(frame, SHAKE, samples=TIME, duration=6.0, vertical=UP)
-    bodies = simulate_three_bodies(
-        frame, SHAKE, span=5.0, cap_depth=1.0, duration=6.0, samples=TIME, vertical=UP
-    )
-    np.testing.assert_allclose(bodies.rotation[:, 0], ours.rotation, atol=1e-7)
+    alone, other = (one.judge(block, shaking, vertical=up) for one in (th, plain))
+    assert alone[::2] == other[::2]  # overturned, number of impacts
+    close = 1e-8 * block.slenderness
+    np.testing.assert_allclose(alone.peak_rotation, other.peak_rotation, rtol=0, atol=close)
 
 
 @pytest.mark.parametrize("scale_vertical", [False, True])

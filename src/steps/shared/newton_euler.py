@@ -139,7 +139,6 @@ def accelerations(
     coordinates: Vector,
     velocity: Vector,
     ground: float,
-    vertical: float = 0.0,
 ) -> tuple[Vector, Vector]:
     """Return q̈, shape (9,), and the contact forces, shape (4, 2), from Newton–Euler.
 
@@ -150,8 +149,8 @@ def accelerations(
         The base corners in contact with the ground.
     coordinates, velocity : ndarray, shape (9,)
         q (m, rad) and q̇ (m/s, rad/s), relative to the ground.
-    ground, vertical : float
-        ü_g and v̈_g, g.
+    ground : float
+        ü_g, g.
 
     Returns
     -------
@@ -161,7 +160,7 @@ def accelerations(
     turned = bodies.turned_arms(sides, coordinates)
     load = np.zeros(17)
     load[0:9:3] = -STANDARD_GRAVITY * ground * bodies.mass[0::3]
-    load[1:9:3] = -STANDARD_GRAVITY * (1.0 + vertical) * bodies.mass[1::3]
+    load[1:9:3] = -STANDARD_GRAVITY * bodies.mass[1::3]
     square = _SIGN * velocity[_TURNS] ** 2
     for axis in (0, 1):
         pull = square * turned[axis]

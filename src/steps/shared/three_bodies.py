@@ -25,12 +25,11 @@ from steps.shared.newton_euler import (
     opening,
     uplift_accelerations,
 )
+from steps.shared.segments import Segment, segments_of
 from topheavy import checks
 from topheavy.bodies.response import EndState, sample_times
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
-from topheavy.ground.excitation import Excitation, Segment, checked_excitation, zero_acceleration
-from topheavy.ground.records import Record
-from topheavy.ground.vertical import with_vertical
+from topheavy.ground.pulses import Pulse
 
 TOLERANCE = 1e-12
 """Of the integration, relative to the size of a motion as large as α."""
@@ -107,11 +106,6 @@ class _Arc:
     ground: Segment
     course: DenseOutput | None
 
-    def components(self, time: float) -> tuple[float, float]:
-        """Return ü_g and v̈_g, g."""
-        gravity = self.ground.gravity(time)
-        return gravity * self.ground.acceleration(time), gravity - 1.0
-
 
 @dataclass
 class _Motion:
@@ -129,7 +123,7 @@ class _Motion:
 
 def simulate_three_bodies(
     frame: RockingFrame,
-    excitation: Excitation | None = None,
+    pulse: Pulse | None = None,
     *,
     span: float,
     cap_depth: float,
@@ -138,14 +132,13 @@ def simulate_three_bodies(
     velocity: float = 0.0,
     samples: int | ArrayLike = 1000,
     tolerance: float = TOLERANCE,
-    vertical: Record | None = None,
 ) -> ThreeBodyResponse:
-    """Return the motion of the three bodies under a ground motion, or rocking freely without one.
+    """Return the motion of the three bodies under a pulse, or rocking freely without one.
 
     Parameters
     ----------
     frame : RockingFrame
-    excitation : Pulse or Record, optional
+    pulse : Pulse, optional
     span, cap_depth : float
         Distance between the axes of the columns and depth of the cap beam, m.
     duration : float
@@ -156,13 +149,11 @@ def simulate_three_bodies(
         A number of uniform times from 0 to the duration, or increasing times in s.
     tolerance : float
         Of the integration, relative to a motion as large as α.
-    vertical : Record, optional
-        Vertical ground acceleration that starts with a record, g, positive upward.
 
     Raises
     ------
     ValueError
-        For values out of range; see `ThreeBodies` and `topheavy.ground.vertical`.
+        For values out of range; see `ThreeBodies`.
     ArithmeticError
         When contacts have come apart by more than `LARGEST_GAP` of R before an impact.
 
@@ -179,14 +170,7 @@ def simulate_three_bodies(
     times = sample_times(samples)
     if isinstance(times, int):
         times = np.linspace(0.0, until, times)
-    ground = with_vertical(excitation, vertical)
-    if ground is not None:
-        checked_excitation(ground)
-    segments = [] if ground is None else list(ground.segments(until))
-    end = segments[-1].stop if segments else 0.0
-    if end < until:
-        segments.append(Segment(end, until, zero_acceleration))
-
+    segments = segments_of(pulse, until)
     motion = _start(bodies, rotation, velocity)
     lifts = uplift_accelerations(bodies)
     level = min(abs(lift) for lift in lifts.values())
@@ -245,10 +229,9 @@ def _fly(
     length, alpha = np.array([column.size, column.size, 1.0] * 3), column.slenderness
     rate = math.sqrt(STANDARD_GRAVITY / column.size)
     sides = motion.sides
-    ground = _Arc(motion.time, stop, sides, segment, None).components
 
     def newton_euler(t: float, y: Vector) -> Vector:
-        second, _ = accelerations(bodies, sides, y[:9], y[9:], *ground(t))
+        second, _ = accelerations(bodies, sides, y[:9], y[9:], segment.acceleration(t))
         return np.concatenate([y[9:], second])
 
     solver = DOP853(
@@ -346,8 +329,8 @@ def _comes_to_rest(
     At the restoring acceleration d a bounce lasts 2 θ̇/d, and the train of
     them 2 θ̇/d(1 − ratio); it is over when d keeps above a half of its value for twice that long.
     """
-    now, gravity = abs(segments[0].acceleration(motion.time)), segments[0].gravity(motion.time)
-    restoring = -gravity * float(opening(bodies, motion.sides, -motion.sides[0] * now).max())
+    now = abs(segments[0].acceleration(motion.time))
+    restoring = -float(opening(bodies, motion.sides, -motion.sides[0] * now).max())
     if (
         restoring <= 0.0
         or ratio >= 1.0
@@ -356,8 +339,7 @@ def _comes_to_rest(
         return False
     train_ends = motion.time + 4.0 * rate / (restoring * (1.0 - ratio))
     largest = max(segment.largest(motion.time, train_ends) for segment in segments)
-    least = min(segment.least_gravity(motion.time, train_ends) for segment in segments)
-    return least * (level - largest) > gravity * (level - now) / 2.0
+    return level - largest > (level - now) / 2.0
 
 
 def _sampled(bodies: ThreeBodies, motion: _Motion, times: Vector) -> ThreeBodyResponse:
@@ -373,7 +355,7 @@ def _sampled(bodies: ThreeBodies, motion: _Motion, times: Vector) -> ThreeBodyRe
             t = float(times[k])
             states[k] = arc.course(t)
             q, rates = states[k, :9], states[k, 9:]
-            _, forces[k] = accelerations(bodies, arc.sides, q, rates, *arc.components(t))
+            _, forces[k] = accelerations(bodies, arc.sides, q, rates, arc.ground.acceleration(t))
             drift[k] = np.hypot(*bodies.gaps(arc.sides, q).T).max()
     moved = any(arc.course is not None for arc in motion.arcs)
     outcome: EndState = "rests" if moved else "no uplift"

@@ -23,7 +23,10 @@ from numpy.typing import ArrayLike, NDArray
 from topheavy import checks
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
 from topheavy.forces.contact import Cap, forces_at, motion_state, weights
-from topheavy.ground.excitation import Excitation, checked_excitation
+from topheavy.ground.excitation import checked_excitation
+from topheavy.ground.pulses import Pulse
+from topheavy.ground.records import Record
+from topheavy.ground.shapes import SHAPES, WAVES
 
 Array = NDArray[np.float64]
 
@@ -134,7 +137,7 @@ def largest_forces(
     return np.stack([sizes.max(axis=(1, 2)), sizes[:, :, ::2].max(axis=(1, 2))])
 
 
-def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Excitation) -> NDArray[np.float64]:
+def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Pulse | Record) -> Array:
     """Return the largest forces of the same rigid frame if it is clamped against uplift.
 
     Its columns are fixed to the ground and pinned to the cap beam: each is a cantilever under its
@@ -151,11 +154,19 @@ def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Excitation) -> NDA
     >>> clamped_forces(frame, th.Cap(span=5.0, half_depth=0.4), pulse).round(4)
     array([0.1   , 0.5267, 0.25  ])
     """
-    segments = checked_excitation(excitation, ends=True).segments(excitation.duration)
-    peak = max(segment.largest(segment.start, segment.stop) for segment in segments)
+    checked_excitation(excitation, ends=True)
+    peak = _peak(excitation)
     column, beam = weights(frame.mass_ratio)
     bending = (beam + column) * frame.column.half_height
     return np.array([1.0, centre_height(frame, cap), bending]) * peak
+
+
+def _peak(excitation: Pulse | Record) -> float:
+    """Return the largest ground acceleration, g, of a pulse where its wave turns or begins."""
+    if isinstance(excitation, Record):
+        return excitation.peak_acceleration
+    phases = np.array([0.0, *WAVES[SHAPES[excitation.shape].wave].turns])
+    return float(np.abs(excitation.accelerations(phases / excitation.angular_frequency)).max())
 
 
 def base_shear_slope(frame: RockingFrame) -> float:

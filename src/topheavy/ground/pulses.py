@@ -9,14 +9,13 @@ from __future__ import annotations
 import difflib
 import math
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from topheavy import checks
-from topheavy.ground.excitation import Excitation, Segment
+from topheavy.ground.excitation import Excitation
 from topheavy.ground.shapes import (
     CENTRE,
     CONSTANT,
@@ -28,7 +27,6 @@ from topheavy.ground.shapes import (
     SINE,
     WAVES,
     PulseShape,
-    Wave,
 )
 
 ANTISYMMETRIC_PEAK = 1.3801
@@ -169,27 +167,6 @@ class Pulse(Excitation):
         inside = (time >= 0.0) & (time <= self.duration)
         phase = self.angular_frequency * np.where(inside, time, 0.0)
         return np.where(inside, self.amplitude * unit_wave(self.wave_number, phase)[0], 0.0)
-
-    def segments(self, until: float) -> list[Segment]:
-        """Return the smooth, monotone segments from 0 to the earlier of `until` and the end."""
-        end = min(until, self.duration)
-        turns = _turns(WAVES[SHAPES[self.shape].wave], end * self.angular_frequency)
-        inner = [turn / self.angular_frequency for turn in turns]
-        edges = [0.0, *inner, end]
-        return [Segment(start, stop, self._at) for start, stop in pairwise(edges) if start < stop]
-
-    def _at(self, time: float) -> float:
-        """Return the acceleration at a time within the duration."""
-        phase = float(self.angular_frequency * time)
-        return float(self.amplitude * unit_wave(self.wave_number, phase)[0])
-
-
-def _turns(wave: Wave, end: float) -> list[float]:
-    """Return the phases in (0, end) at which the slope of a wave is zero."""
-    turns = list(wave.turns)
-    if wave.period < math.inf:
-        turns = np.arange(wave.turns[0], end, wave.period).tolist()
-    return [turn for turn in turns if 0.0 < turn < end]
 
 
 def _checked_cycles(cycles: int, shape: PulseShape) -> int:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import unicodedata
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.structures import STANDARD_GRAVITY
-from topheavy.ground.excitation import Excitation, Lines, Segment
+from topheavy.ground.excitation import Excitation
 
 _METRES = {"gal": 0.01, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
 UNITS = {"g": 1.0, "%g": 0.01, "mg": 0.001}
@@ -201,19 +200,6 @@ class Record(Excitation):
         inside = (time >= 0.0) & (time <= self.duration)
         return np.where(inside, np.interp(place, samples, self.acceleration), 0.0)
 
-    def segments(self, until: float) -> Lines:
-        """Return the lines between samples, from 0 to the earlier of `until` and the end."""
-        samples, size = self.acceleration.tolist(), np.abs(self.acceleration)
-        begun = int(np.count_nonzero(self.time[:-1] < until))
-
-        def line(k: int) -> Segment:
-            first, second = samples[k : k + 2]
-            start, stop = k * self.time_step, (k + 1) * self.time_step
-            slope = (second - first) / self.time_step
-            return Segment(start, min(stop, until), partial(_line, start, first, slope))
-
-        return Lines(np.maximum(size[:-1], size[1:])[:begun], line)
-
 
 def _label(name: str) -> str:
     return f"record {name!r}" if name else "record"
@@ -246,7 +232,3 @@ def _longest_run(flags: NDArray[np.bool_]) -> int:
     """Return the largest number of True in turn."""
     changes = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]])))
     return int(np.diff(changes)[::2].max(initial=0))
-
-
-def _line(start: float, value: float, slope: float, time: float) -> float:
-    return value + slope * (time - start)
