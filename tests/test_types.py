@@ -41,7 +41,7 @@ fragility([column], [pulse], [1.0], "PGD")
 def errors(request, tmp_path_factory):
     """The lines with errors in two scripts in a folder of their own, checked as by a user."""
     folder = tmp_path_factory.mktemp("user")
-    user = (TESTS / "types" / "user.py").read_text(encoding="utf-8")
+    user = (TESTS / "typed_user.py").read_text(encoding="utf-8")
     strict = json.dumps({"typeCheckingMode": "strict"})
     readme = (TESTS.parent / "README.md").read_text(encoding="utf-8")
     (snippet,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
@@ -75,7 +75,7 @@ def test_every_mistake_of_a_user_is_found(errors):
 
 
 def test_users_script_runs():
-    script = [sys.executable, "-W", "error", TESTS / "types" / "user.py", RECORD]
+    script = [sys.executable, "-W", "error", TESTS / "typed_user.py", RECORD]
     run = subprocess.run(
         script, capture_output=True, text=True, check=False, env=os.environ | {"MPLBACKEND": "agg"}
     )
@@ -101,5 +101,5 @@ def test_what_a_public_function_returns_is_public():
 
 
 def test_users_script_has_every_public_name():
-    user = (TESTS / "types" / "user.py").read_text(encoding="utf-8")
+    user = (TESTS / "typed_user.py").read_text(encoding="utf-8")
     assert {name for name in PUBLIC if not re.search(rf"\b{name}\b", user)} == set()

@@ -11,7 +11,7 @@ from steps.shared import plain
 from steps.shared.cases import column_of, pulse_on
 from steps.shared.linear import simulate_linear_exact
 from topheavy import Column, Pulse, RockingFrame, judge, read_record, simulate
-from topheavy.bodies.massless_columns import SIMPLIFICATIONS, simplified
+from topheavy.bodies.structures import SIMPLIFICATIONS, simplified
 
 AGREE = 1e-6  # of α, between solvers
 

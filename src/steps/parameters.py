@@ -11,7 +11,7 @@ from replication.step import check, run, truth, value
 from steps.shared import plain
 from steps.shared.cases import column_of, lowest
 from topheavy import Column, FixedMassColumn, Pulse, RockingFrame
-from topheavy.bodies.moment_rotation import restoring_moment
+from topheavy.bodies.free_rocking import restoring_moment
 
 ROUNDING = 1e-12  # of m_c g R
 DIGITS = 1e-8  # of a number in a table

@@ -18,7 +18,7 @@ from topheavy import (
 )
 from topheavy.bodies.free_rocking import quarter_period
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
-from topheavy.bodies.massless_columns import simplified
+from topheavy.bodies.structures import simplified
 from topheavy.forces.contact import forces_at
 from topheavy.kernel.step import TOLERANCE
 

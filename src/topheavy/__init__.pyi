@@ -12,7 +12,7 @@ from .outcomes.minimum import LowestOverturning, lowest_overturning, overturning
 from .outcomes.overturning import overturning_map
 from .outcomes.search import FactorInterval, overturned_by, overturning_intervals, peak_rotations
 from .outcomes.simulate import judge, simulate
-from .risk.estimate import Fragility, fragility
+from .risk.fragility import Fragility, fragility
 
 __version__: str
 

@@ -9,6 +9,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray
 
 from topheavy import checks
 from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
@@ -16,10 +17,9 @@ from topheavy.bodies.kinematics import outlines
 from topheavy.bodies.response import Response
 from topheavy.bodies.structures import RockingFrame, Structure, as_block
 from topheavy.outcomes.capacity import Capacity
-from topheavy.risk.estimate import Fragility
+from topheavy.risk.fragility import Fragility
 
 if TYPE_CHECKING:
-    import xarray
     from matplotlib.axes import Axes
 
 __all__ = ["capacity", "fragility", "history", "map", "rotations", "spectrum", "structure"]

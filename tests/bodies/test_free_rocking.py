@@ -15,8 +15,8 @@ from topheavy.bodies.free_rocking import (
     outcome_of_energy,
     potential,
     quarter_period,
+    restoring_moment,
 )
-from topheavy.bodies.moment_rotation import restoring_moment
 from topheavy.bodies.response import sample_times
 
 COLUMN = Column(0.5, 2.0)

@@ -12,7 +12,7 @@ from steps.shared import plain
 from tests.cases import COLUMN
 from topheavy import STANDARD_GRAVITY as G
 from topheavy import Column, RockingBlock, RockingFrame
-from topheavy.bodies.massless_columns import simplified
+from topheavy.bodies.structures import simplified
 
 WIDE = Column(0.5, 2.0)  # tan α = 1/4
 STOCKY = Column(2.0, 1.0)  # α = 63.4°: Housner's √r is 1 − 1.5 · 0.8 = −0.2

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.stats import beta, binom, bootstrap
 
-from topheavy.risk import resampling
+from topheavy.risk import fragility, resampling
 from topheavy.risk.curve import curve, dispersions, fit, medians
-from topheavy.risk.resampling import interval, means_within
-from topheavy.risk.tables import curve_table, exact_interval, pair_table, sign_test
+from topheavy.risk.fragility import exact_interval, sign_test
+from topheavy.risk.resampling import Ensemble, interval, means_within
 
 
 def test_means_by_blocks_scatter_as_those_of_all_weights(monkeypatch):
@@ -112,14 +112,9 @@ def outcomes_of(capacities, levels=LEVELS):
     return np.asarray(capacities, dtype=float)[..., None] <= levels
 
 
-def tables(capacities, places=((0, 1),), resamples=400, levels=LEVELS):
-    fell = outcomes_of(capacities, levels)
-    means = means_within(fell, [None] * len(fell), resamples, 1)
-    if len(fell) == 1:
-        means[1:] = np.nan
-    terms = fit(levels, means, skewed=False)
-    curves = curve_table(fell.sum(axis=0), len(fell), levels, means, terms, 0.95)
-    return curves, pair_table(fell, levels, means, terms, places, 0.95)
+def tables(capacities, levels=LEVELS):
+    ensemble = Ensemble(outcomes_of(capacities, levels), None, 400, 1, 0.95)
+    return fragility.tables(ensemble, levels, skewed=False)[:2]
 
 
 def lognormal(motions, seed, *factors):
@@ -184,14 +179,14 @@ def test_one_motion_has_no_scatter():
 
 
 def test_second_that_is_stronger_has_less_probability_and_a_gain():
-    _, pairs = tables(lognormal(60, 3, 1.0, 1.25), places=[(0, 1), (1, 0), (0, 0)])
-    assert pairs.gain.to_numpy() == pytest.approx([0.25, -0.2, 0.0], abs=0.03)
-    assert pairs.gain_low.to_numpy()[0] > 0.0 > pairs.gain_high.to_numpy()[1]
-    assert (pairs.gain_low[2], pairs.gain_high[2]) == (0.0, 0.0)
+    _, pairs = tables(lognormal(60, 3, 1.0, 1.25, 1.0))  # pairs of one with two and three, of both
+    assert pairs.gain.to_numpy() == pytest.approx([0.25, 0.0, -0.2], abs=0.03)
+    assert pairs.gain_low.to_numpy()[0] > 0.0 > pairs.gain_high.to_numpy()[2]
+    assert (pairs.gain_low[1], pairs.gain_high[1]) == (0.0, 0.0)
     middle = pairs.isel(level=12)
-    assert middle.less_low.to_numpy()[0] > 0.0 > middle.less_high.to_numpy()[1]
-    assert middle.less.to_numpy()[0] == -middle.less.to_numpy()[1] > 0.1
-    np.testing.assert_array_equal(pairs.only_first[0], pairs.only_second[1])
+    assert middle.less_low.to_numpy()[0] > 0.0 > middle.less_high.to_numpy()[2]
+    assert middle.less.to_numpy()[0] == -middle.less.to_numpy()[2] > 0.1
+    np.testing.assert_array_equal(pairs.only_first[0], pairs.only_second[2])
     assert not pairs.only_second[0].any()
     assert pairs.only_first[0].to_numpy() == pytest.approx(60 * pairs.less[0].to_numpy())
     ends = (pairs.less_low, pairs.less_high)

@@ -13,7 +13,6 @@ import pandas as pd
 from scipy.optimize import isotonic_regression
 
 from replication.step import check, run, truth, value
-from steps.shared.ensemble import Ensemble
 from steps.shared.plain import beside_a_boundary, check_sample, overturns
 from steps.shared.sweep import (
     FAMILIES,
@@ -24,6 +23,7 @@ from steps.shared.sweep import (
     sets,
 )
 from topheavy import Column
+from topheavy.risk.resampling import Ensemble
 
 WITHIN = "impulses within the contacts"
 FINE = 0.5  # of the interval of an end: how far twice the step of the reductions may move it

@@ -11,7 +11,6 @@ import numpy as np
 from scipy.stats import binom
 
 from replication.step import check, run, truth, value
-from steps.shared.ensemble import Ensemble
 from steps.shared.plain import beside_a_boundary, check_sample, overturns
 from steps.shared.sweep import (
     FREE_FALL,
@@ -25,6 +24,7 @@ from steps.shared.sweep import (
 )
 from topheavy import Column
 from topheavy.risk.curve import fit, medians
+from topheavy.risk.resampling import Ensemble
 
 NAMES = ("column", "fixed", "frame")
 COLUMN, FIXED, FRAME = range(3)

@@ -16,10 +16,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numba.extending import register_jitable
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import quad
 
 from topheavy import checks
 from topheavy.bodies.response import Response
-from topheavy.bodies.structures import RockingBlock, Structure
+from topheavy.bodies.structures import Column, RockingBlock, RockingFrame, Structure
 
 
 class Outcome(NamedTuple):
@@ -124,8 +126,6 @@ def quarter_period(structure: Structure, rotation: float) -> float:
     if block.linearised:
         return math.acosh(1.0 / (1.0 - start / alpha)) / p
 
-    from scipy.integrate import quad  # half a second that the kernel never needs
-
     def integrand(x: float) -> float:
         if x == 0.0:
             return math.sqrt(2.0 * start / math.sin(alpha - start))
@@ -149,3 +149,27 @@ def energy_drift(block: RockingBlock, response: Response, flights: int) -> float
     flight = np.searchsorted(response.impact_times[:flights], response.time, side="right")
     inside = [levels[flight == number] for number in range(flights)]
     return max(float(np.ptp(level) / level.mean()) for level in inside)
+
+
+def restoring_moment(structure: Column | RockingFrame, rotation: ArrayLike) -> NDArray[np.float64]:
+    """Return the restoring moment normalised by m_c g R of one column at rotations θ (rad, signed).
+
+    For the solitary column it is sin(α − |θ|), opposed to the rotation. In the frame each column
+    also carries half of the cap beam at the end of its diagonal, twice as far from the pivot; the
+    moment is therefore 1 + 2γ times as high. At θ = 0 the moment balances the ground motion, up to
+    the value returned for θ → 0 from above.
+
+    Raises
+    ------
+    ValueError
+        For γ = ∞: columns without mass have no m_c g R.
+    """
+    share = 1.0
+    if isinstance(structure, RockingFrame):
+        if structure.mass_ratio == math.inf:
+            raise ValueError("mass_ratio is inf; expected a finite γ, as m_c g R is 0 for γ = ∞")
+        share += 2.0 * structure.mass_ratio
+    theta = np.asarray(rotation, dtype=float)
+    side = np.where(theta < 0.0, -1.0, 1.0)
+    moment: NDArray[np.float64] = share * side * np.sin(structure.slenderness - np.abs(theta))
+    return moment

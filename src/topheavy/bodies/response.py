@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+import pandas
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.structures import RockingBlock
-
-if TYPE_CHECKING:
-    import pandas
 
 MAX_SAMPLES = 10_000_000
 """Largest number of samples: three arrays of 80 MB."""
@@ -74,8 +72,6 @@ class Response:
         >>> free.to_frame().rotation.round(4).tolist()
         [0.1, 0.095, 0.0793]
         """
-        import pandas  # here: it takes half a second that only tables need
-
         return pandas.DataFrame(
             {"rotation": self.rotation, "velocity": self.velocity},
             pandas.Index(self.time, name="time"),

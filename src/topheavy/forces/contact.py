@@ -21,9 +21,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import reduce
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+import xarray
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
@@ -38,9 +39,6 @@ from topheavy.checks import short_repr
 from topheavy.ground.excitation import Excitation, checked_excitation
 from topheavy.ground.records import Record
 from topheavy.outcomes.simulate import simulate
-
-if TYPE_CHECKING:
-    import xarray
 
 Array = NDArray[np.float64]
 
@@ -330,8 +328,6 @@ def contact_forces(
     >>> round(float(forces.required_friction.max()), 3), bool(forces.vertical.min() > 0.0)
     (0.214, True)
     """
-    import xarray  # it imports pandas, a second that only tables need
-
     _check_contacts(structure, cap)
     if not isinstance(response, Response):
         raise ValueError(f"response is {short_repr(response)}; expected one that simulate returned")

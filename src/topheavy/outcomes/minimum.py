@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+import xarray
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
@@ -24,9 +25,6 @@ from topheavy.outcomes.search import (
     outcomes_of_factors,
     structure_coordinates,
 )
-
-if TYPE_CHECKING:
-    import xarray
 
 FACTORS_PER_CALL, MIN_FACTORS_PER_CALL = 512, 32
 """Factors of all grids in one call of the kernel, and the least of one grid; from the lowest up."""
@@ -264,8 +262,6 @@ def overturning_spectrum(
     {'column': 0.286, 'frame': 0.379}
     >>> axes = th.plot.spectrum(spectrum)
     """
-    import xarray  # here: with pandas it takes a second that only tables need
-
     blocks, axis = named_blocks(structure), checks.axis_values("periods", periods, "s")
     if checks.positive("highest", highest) <= 1.0:
         raise ValueError(f"highest is {highest:.6g}; expected more than 1, the uplift acceleration")

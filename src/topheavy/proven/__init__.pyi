@@ -1,6 +1,5 @@
 from . import checking
-from .below import survives_below
-from .prover import certified
+from .prover import certified, survives_below
 
 __all__ = [
     "certified",

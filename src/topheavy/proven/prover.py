@@ -8,16 +8,18 @@ motion that can no longer be followed is bounded by walls, which only proves tha
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from copy import copy
 from typing import Any
 
+from topheavy import checks
 from topheavy.bodies.structures import Structure
 from topheavy.ground.pulses import Pulse
+from topheavy.proven.checking.bounds import Bound, rounded_up
 from topheavy.proven.checking.checker import Check
 from topheavy.proven.checking.intervals import NotProven
 from topheavy.proven.floats import Floats, crossing, ends, first_zero, middle
 from topheavy.proven.problem import problem_of
-from topheavy.proven.walls import proposed
 
 PRECISIONS = ((112, 1e-13), (144, 1e-20), (176, 1e-28))
 """Bits of the checker, and the largest size of the last terms of a step, rad."""
@@ -42,6 +44,27 @@ N_GRID = 32
 
 FIRST_WALL_STEP, WALL_STEP_GROWTH, MAX_WALL_STEP = 2.0**-6, 1.3, math.pi / 48.0
 """Steps of a bound, in the phase of the pulse."""
+
+ENERGY_MARGIN = 1.02
+"""Factor on the gain of energy: the enclosures of the checker are wider."""
+
+LEMMA_MARGIN = 1.0 + 1e-9
+"""Factor on the inequalities of the lemma, for the same reason."""
+
+FIRST_SLACK, MAX_SLACK = 2.0**-16, 0.05
+"""Relative distance of a wall from the rotation that the block reaches: first and largest one."""
+
+MIN_SLACK = 2.0**-40
+"""Least distance, rad."""
+
+MAX_TRIES = 40
+
+MIN_BOX_WIDTH = 1e-11
+"""Relative to the highest factor: a narrower box that is not proven stays undecided."""
+
+AFTER_FAILURE, AFTER_RETRY, AFTER_SUCCESS = 0.7, 0.95, 1.1
+"""Width of the next box over the last one, which was not proven, proven after a failure, or proven
+at the first try."""
 
 
 def certified(
@@ -83,6 +106,41 @@ def certified(
         if search.run():
             return search.certificate
     return None
+
+
+def survives_below(
+    structure: Structure, pulse: Pulse, high: float
+) -> tuple[list[dict[str, Any]], list[tuple[float, float]]]:
+    """Prove, box by box, that a structure survives all factors from 0 to `high` on a pulse.
+
+    Returns
+    -------
+    list of dict
+        Certificates of boxes of factors that survive, in ascending order.
+    list of (float, float)
+        Boxes that are undecided or overturn; none if every factor is proven to survive.
+
+    Raises
+    ------
+    ValueError
+        As `certified`, and for a `high` that is not positive.
+    """
+    high = checks.positive("high", high)
+    certificates, undecided = [], []
+    low, width, growth = 0.0, high, AFTER_SUCCESS
+    while low < high:
+        top = min(low + width, high)
+        width = top - low
+        certificate = certified(structure, pulse, (low, top))
+        if certificate and certificate["outcome"] == "survives":
+            certificates.append(certificate)
+        elif certificate or width < MIN_BOX_WIDTH * high:
+            undecided.append((low, top))
+        else:
+            width, growth = AFTER_FAILURE * width, AFTER_RETRY
+            continue
+        low, width, growth = top, growth * width, AFTER_SUCCESS
+    return certificates, undecided
 
 
 class Search:
@@ -210,7 +268,7 @@ class Search:
         sigma, h = ends(self.check.sigma)[1], FIRST_WALL_STEP
         while sigma < stop:
             sigma = min(sigma + h, stop)
-            for pair in proposed(self.floats, self.check.bounded(), sigma):
+            for pair in proposed_walls(self.floats, self.check.bounded(), sigma):
                 if self._take("walls", sigma=repr(sigma), walls=[repr(x) for x in pair]):
                     break
             else:
@@ -220,3 +278,52 @@ class Search:
             return bool(self.check.end())
         except NotProven:
             return False
+
+
+def proposed_walls(floats: Floats, bound: Bound, sigma: float) -> Iterator[tuple[float, float]]:
+    """Yield pairs of walls up to a phase, each looser than the last, while they are below α."""
+    h, grounds, rises = bound.pushes(rounded_up(repr(sigma)))
+    sides = [
+        _Side(floats, ends(h)[1], ends(before)[1], ends(ground)[0])
+        for before, ground in zip(bound.walls, grounds, strict=True)
+    ]
+    gains = [max(0.0, ends(rise)[1]) for rise in rises]
+    first = energy = ends(bound.energy)[1]
+    slack = FIRST_SLACK
+    for _ in range(MAX_TRIES):
+        for side in sides:
+            side.move(energy, slack)
+        if any(side.wall >= floats.alpha for side in sides):
+            return
+        gain = max(rise * floats.lever(side.wall) for rise, side in zip(gains, sides, strict=True))
+        energy = first + floats.kappa_squared * ENERGY_MARGIN * gain
+        if all(side.holds(energy) for side in sides):
+            yield sides[0].wall, sides[1].wall
+        slack = min(1.5 * slack, MAX_SLACK)
+
+
+class _Side:
+    """X_s, Y_s and m_s of a step of length h."""
+
+    def __init__(self, floats: Floats, h: float, before: float, least: float) -> None:
+        self.floats, self.h, self.before, self.least = floats, h, before, least
+        self.wall = before
+
+    def move(self, energy: float, slack: float) -> None:
+        """Move the wall a share beyond the rotation that the block reaches with an energy."""
+        reached = min(self.before + self._way(energy), self.floats.turn(energy, self.least))
+        self.wall = reached * (1.0 + slack) + MIN_SLACK
+
+    def holds(self, energy: float) -> bool:
+        """Return whether the lemma holds with a margin."""
+        old, new = (self.floats.potential(x, self.least) for x in (self.before, self.wall))
+        bound = LEMMA_MARGIN * energy
+        if new > bound and (self.wall >= self.before or old > bound):
+            return True
+        return self.wall - self.before > LEMMA_MARGIN * self._way(energy)
+
+    def _way(self, energy: float) -> float:
+        potentials = (self.floats.potential(x, self.least) for x in (self.before, self.wall))
+        rates = [math.sqrt(max(0.0, 2.0 * (energy - x))) for x in potentials]
+        is_concave = self.least * self.floats.uplift_level < 1.0
+        return self.h * (sum(rates) / 2.0 if is_concave else max(rates))

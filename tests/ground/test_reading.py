@@ -11,7 +11,7 @@ import pytest
 
 from replication.config import components
 from tests.cases import RECORDS
-from tests.ground.records.test_records import MOTION, TIME
+from tests.ground.test_records import MOTION, TIME
 from topheavy import read_record
 from topheavy.ground.reading import OTHER_READERS
 

@@ -5,26 +5,25 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
+import pandas
+import xarray
 from numpy.typing import ArrayLike, NDArray
+from scipy.stats import beta, binomtest
 
 from topheavy import checks
 from topheavy.bodies.structures import Structures, named_blocks
 from topheavy.ground.records import Record
 from topheavy.outcomes.search import peaks_and_outcomes
 from topheavy.risk import inputs
-from topheavy.risk.curve import fit, points_between
-from topheavy.risk.resampling import means_within
-from topheavy.risk.tables import curve_table, pair_table
-
-if TYPE_CHECKING:
-    import pandas
-    import xarray
+from topheavy.risk.curve import curve, dispersions, fit, medians, points_between
+from topheavy.risk.resampling import Ensemble
 
 Array = NDArray[np.float64]
 Outcomes = NDArray[np.bool_]
+Variables = dict[str, tuple[tuple[str, ...], Any]]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -236,13 +235,8 @@ def fragility(
         return overturned if limit is None else ~(peaks <= limit)  # also where it is NaN
 
     outcomes = np.array([*map(outcomes_of, shaking, ups, scales)])
-    means = means_within(outcomes, members or [None] * len(shaking), resamples, seed)
-    if len(shaking) == 1:
-        means[1:] = np.nan  # a resample of one motion is that motion, and shows no scatter
-    terms, places = fit(steps, means, skewed=skewed), [*combinations(range(len(blocks)), 2)]
-    counts = outcomes.sum(axis=0)
-    curves = curve_table(counts, len(shaking), steps, means, terms, confidence)
-    pairs = pair_table(outcomes, steps, means, terms, places, confidence)
+    ensemble = Ensemble(outcomes, members, resamples, seed, confidence)
+    curves, pairs, places = tables(ensemble, steps, skewed=skewed)
     names = list(blocks)
     unit = {} if callable(measure) else {"units": inputs.UNITS[measure]}
     level = ("level", steps, unit)
@@ -263,3 +257,72 @@ def fragility(
         factors=(float(scales.min()), float(scales.max())),
         rotation_limit=limit,
     )
+
+
+def tables(
+    ensemble: Ensemble, levels: Array, *, skewed: bool
+) -> tuple[xarray.Dataset, xarray.Dataset, list[tuple[int, int]]]:
+    """Return `curves` and `pairs` of a `Fragility` without their coordinates, and the pairs.
+
+    Of arrays with resamples the first axis holds the ensemble and then its resamples.
+    """
+    outcomes, means = ensemble.outcomes, ensemble.means()
+    if len(outcomes) == 1:
+        means[1:] = np.nan  # a resample of one motion is that motion, and shows no scatter
+    terms, counts = fit(levels, means, skewed=skewed), outcomes.sum(axis=0)
+    middles = medians(levels, terms)
+    low, high = exact_interval(counts, len(outcomes), ensemble.confidence)
+
+    def resampled(name: str, dims: tuple[str, ...], values: Array) -> Variables:
+        return {key: (dims, ends) for key, ends in ensemble.bounds(name, values).items()}
+
+    at, one = ("structure", "level"), ("structure",)
+    curves: Variables = {
+        "overturned": (at, counts),
+        "probability": (at, counts / len(outcomes)),
+        "probability_low": (at, low),
+        "probability_high": (at, high),
+        "fitted": (at, curve(levels, terms[0])),
+        "terms": (("structure", "term"), terms[0]),
+    }
+    curves |= resampled("median_capacity", one, middles)
+    curves |= resampled("dispersion", one, dispersions(terms))
+
+    places = [*combinations(range(outcomes.shape[1]), 2)]
+    first, second = np.array(places, dtype=int).reshape(-1, 2).T
+    only_first = (outcomes[:, first] & ~outcomes[:, second]).sum(axis=0)
+    only_second = (outcomes[:, second] & ~outcomes[:, first]).sum(axis=0)
+    at, one = ("pair", "level"), ("pair",)
+    pairs: Variables = {
+        "only_first": (at, only_first),
+        "only_second": (at, only_second),
+        "sign_test": (at, sign_test(only_first, only_second)),
+    }
+    pairs |= resampled("less", at, means[:, first] - means[:, second])
+    pairs |= resampled("gain", one, middles[:, second] / middles[:, first] - 1.0)
+    return xarray.Dataset(curves, {"term": list("abc")}), xarray.Dataset(pairs), places
+
+
+def exact_interval(
+    counts: NDArray[np.int64], trials: int, confidence: float
+) -> tuple[Array, Array]:
+    """Return the exact interval of a probability from counts (Clopper & Pearson 1934).
+
+    `trials` is the number of trials of each count; both ends have the shape of the counts.
+    """
+    tail, left = 0.5 * (1.0 - confidence), trials - counts
+    low = np.where(counts > 0, beta.ppf(tail, counts, left + 1), 0.0)
+    high = np.where(left > 0, beta.ppf(1.0 - tail, counts + 1, left), 1.0)
+    return low, high
+
+
+def sign_test(ones: NDArray[np.int64], others: NDArray[np.int64]) -> Array:
+    """Return the two-sided p-value of the exact test that both outcomes are equally likely.
+
+    The exact test of McNemar: of pairs that differ, the `ones` are binomial with 1/2.
+    """
+    p_values = [
+        binomtest(int(one), int(one + other)).pvalue if one + other else 1.0
+        for one, other in zip(ones.ravel(), others.ravel(), strict=True)
+    ]
+    return np.array(p_values, dtype=float).reshape(ones.shape)
