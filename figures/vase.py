@@ -9,13 +9,13 @@ from palette import FIXED, OVERTURNED, OVERTURNS, ROCKS, SURVIVES
 
 from replication.drawing import DARKEST, DOUBLE, GREY, INK, LIGHTEST, PAPER, letter, note, sheet
 
-PLACES = {"bare": 0.0, "fixed": 8.4, "free": 19.3}  # m: the middle of each
+PLACES = {"column": 0.0, "fixed mass": 8.4, "frame": 19.3}  # m: the middle of each
 NAMES = {
-    "bare": "Column",
-    "fixed": "Mass fixed\nto the column",
-    "free": "Frame: mass\ncarried freely",
+    "column": "Column",
+    "fixed mass": "Mass fixed\nto the column",
+    "frame": "Frame: mass\ncarried freely",
 }
-COLOURS = {"bare": LIGHTEST, "fixed": FIXED, "free": DARKEST}
+COLOURS = {"column": LIGHTEST, "fixed mass": FIXED, "frame": DARKEST}
 ROW = 10.2  # m between the rows
 EDGES = (-5.4, 25.0)  # m: of the ground
 TINTS = {OVERTURNS: OVERTURNED, SURVIVES: ROCKS}
@@ -66,11 +66,11 @@ def picture(axis, poses):
 def glyph(axis, name, at):
     """Draw a structure at the size of a letter, its mass in colour."""
     area, colour = DrawingArea(16, 15), COLOURS[name]
-    for left in (1, 13) if name == "free" else (7,):
+    for left in (1, 13) if name == "frame" else (7,):
         how = {"facecolor": PAPER, "edgecolor": colour, "linewidth": 0.7}
         area.add_artist(Rectangle((left, 0), 2, 11, **how))
-    if name != "bare":
-        left, width = (0, 16) if name == "free" else (4, 8)
+    if name != "column":
+        left, width = (0, 16) if name == "frame" else (4, 8)
         area.add_artist(Rectangle((left, 11), width, 3, facecolor=colour, linewidth=0))
     axis.add_artist(AnnotationBbox(area, at, frameon=False, pad=0, box_alignment=(0.5, -0.15)))
 
@@ -80,13 +80,13 @@ def minima(axis, vase, poses):
     of = vase[vase["shape"] == "one-cosine"]
     drawn_at = sorted(of.mass_ratio[of.mass_ratio < math.inf].unique())
     limit_at, glyphs_at = math.ceil(drawn_at[-1]) + 1, drawn_at[-2]  # the place of γ → ∞; γ
-    bare = of[of.structure == "bare"].minimum_overturning.iloc[0]
-    axis.plot([0.0, limit_at], [bare, bare], color=COLOURS["bare"])
-    glyph(axis, "bare", (glyphs_at, bare))
-    for name in ("fixed", "free"):
+    alone = of[of.structure == "column"].minimum_overturning.iloc[0]
+    axis.plot([0.0, limit_at], [alone, alone], color=COLOURS["column"])
+    glyph(axis, "column", (glyphs_at, alone))
+    for name in ("fixed mass", "frame"):
         line, colour = of[of.structure == name].sort_values("mass_ratio"), COLOURS[name]
         finite, limit = line[line.mass_ratio < math.inf], line.minimum_overturning.iloc[-1]
-        x, y = [0.0, *finite.mass_ratio], [bare, *finite.minimum_overturning]
+        x, y = [0.0, *finite.mass_ratio], [alone, *finite.minimum_overturning]
         axis.plot(x, y, "o-", color=colour, markersize=2.2)
         dotted = {"color": colour, "linewidth": 0.8, "linestyle": (0, (1, 2))}
         axis.plot([x[-1], limit_at], [y[-1], limit], **dotted)

@@ -403,7 +403,7 @@ def outcomes(points):
 
 FOLDER = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 TEMPLE, TRILITH, PERIOD = (0.5, 3.0), (0.11, 0.40), 1.5  # half-width and half-height, m; s
-MAKE = {"bare": lambda b, h, gamma: column(b, h), "fixed": fixed, "free": frame}
+MAKE = {"column": lambda b, h, gamma: column(b, h), "fixed mass": fixed, "frame": frame}
 SENTENCES = {  # of README; # is a number that this file computes
     "size": "R̂ is at most # times R",
     "trilith": "p̂ = # rad/s, as printed",
@@ -608,7 +608,7 @@ def vase():
         numbers = minima(bodies, pulse(shape), omega)
         compare_bodies(f"column, fixed mass, frame, {shape}: minima", rows, bodies, numbers)
     lowest = {(r["structure"], r["mass_ratio"]): n for r, n in zip(rows, numbers, strict=True)}
-    compare_readme("minima", [lowest["bare", 0.0], lowest["free", INF]])
+    compare_readme("minima", [lowest["column", 0.0], lowest["frame", INF]])
     proven = [row for row in table("proven") if row["part"] == "minimum"]
     numbers = [lowest[row["structure"], row["mass_ratio"]] for row in proven]
     compare_all("   beside ends that are proven", [row["low"] for row in proven], numbers, 2e-8)

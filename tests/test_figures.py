@@ -454,7 +454,7 @@ def uplift(uplift):
 
 def vase(vase, vase_poses):
     poses, amplitudes = vase_poses, sorted(vase_poses.amplitude.unique())
-    middles = {"bare": 0.0, "fixed": 8.4, "free": 19.3}
+    middles = {"column": 0.0, "fixed mass": 8.4, "frame": 19.3}
     for (amplitude, name), of in poses.groupby(["amplitude", "structure"]):
         ground = -10.2 * amplitudes.index(amplitude)
         over = of.outcome.iloc[0] == "overturned"
@@ -477,12 +477,12 @@ def vase(vase, vase_poses):
     finite = cosine[cosine.mass_ratio < math.inf]
     ratios = sorted(finite.mass_ratio.unique())
     end, at = math.ceil(ratios[-1]) + 1, ratios[-2]
-    bare = cosine[cosine.structure == "bare"].minimum_overturning.iloc[0]
-    yield 1, f"{LIGHT} -", [0, end], [bare] * 2
-    yield 1, f"{WHITE} glyph of 1", at, bare
-    for name, colour, parts in (("fixed", FIXED, 2), ("free", DARK, 3)):
+    alone = cosine[cosine.structure == "column"].minimum_overturning.iloc[0]
+    yield 1, f"{LIGHT} -", [0, end], [alone] * 2
+    yield 1, f"{WHITE} glyph of 1", at, alone
+    for name, colour, parts in (("fixed mass", FIXED, 2), ("frame", DARK, 3)):
         of = cosine[cosine.structure == name].set_index("mass_ratio").minimum_overturning
-        yield 1, f"{colour} o-", [0, *of.index[:-1]], [bare, *of.iloc[:-1]]
+        yield 1, f"{colour} o-", [0, *of.index[:-1]], [alone, *of.iloc[:-1]]
         yield 1, f"{colour} --", [ratios[-1], end], of.iloc[-2:]
         yield 1, f"{colour} o", end, of.iloc[-1]
         yield 1, f"{colour} glyph of {parts}", at, of[at]

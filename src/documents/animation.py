@@ -28,8 +28,12 @@ BLENDS = 12  # of two colours
 SIZE, DPI = (8.4, 4.2), 100  # inches
 HELD = (1200, 1800)  # ms: how long the outcome is shown, at the beginning and at the end
 PLAYS = 3
-PLACES = {"bare": 0.0, "fixed": 10.2, "free": 22.6}  # m: the middle of each
-NAMES = {"bare": "Column", "fixed": "Vase: mass fixed to it", "free": "Frame: mass carried freely"}
+PLACES = {"column": 0.0, "fixed mass": 10.2, "frame": 22.6}  # m: the middle of each
+NAMES = {
+    "column": "Column",
+    "fixed mass": "Vase: mass fixed to it",
+    "frame": "Frame: mass carried freely",
+}
 COLOURS = {"overturns": (P.OVERTURNED, P.OVERTURNS), "survives": (P.ROCKS, P.SURVIVES)}
 """Of a column, and of a mass and all edges."""
 VIEW = (-4.5, 28.0, -1.6, 8.4)  # m
@@ -96,7 +100,7 @@ def patch(scene, colour: str, zorder: int) -> Polygon:
 def pictures(settings: dict, column: dict) -> list[Image.Image]:
     given, cap = settings["pulse"], settings["cap"]
     shown = structures(Column(**column), settings["mass_ratio"], cap)
-    alpha = shown["bare"].slenderness
+    alpha = shown["column"].slenderness
     pulse = Pulse(given["shape"], given["amplitude"], 2.0 * math.pi / given["period"])
     times = np.arange(0.0, settings["duration"], hundredths(settings) / 100.0)
     theta = {name: rotations(one, pulse, times, cap) for name, one in shown.items()}

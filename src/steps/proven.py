@@ -14,7 +14,7 @@ from topheavy.bodies.structures import Structure
 from topheavy.proven import certified, checking, survives_below
 
 SHAPE = "one-cosine"
-QUOTED = {("bare", 0.0): True, ("free", 1.0): False, ("free", math.inf): True}
+QUOTED = {("column", 0.0): True, ("frame", 1.0): False, ("frame", math.inf): True}
 """The quoted minima, and whether all amplitudes below them are verified, too."""
 READ_AGAIN = 10  # each tenth box: the search takes only steps that the checker accepts
 WIDTHS = (1e-8, 1e-7, 1e-6)  # from a minimum, over it: the tables have nine digits
@@ -57,7 +57,7 @@ def compute(
     pulse = Pulse(SHAPE, 1.0, 2.0 * math.pi / period)
     for (name, gamma), has_boxes in QUOTED.items():
         structure: Structure = Column(**column)
-        if name == "free":
+        if name == "frame":
             structure = RockingFrame(structure, gamma)
         both = sides(structure, pulse, float(quoted.minimum_overturning[name, gamma]))
         for amplitude, certificate in both:
@@ -75,7 +75,7 @@ def compute(
         pulse = pulse.scaled(at["amplitude_over_uplift"])
         frame = RockingFrame(column_of(slenderness), at["mass_ratio"])
         span = (pulse.amplitude, pulse.amplitude)
-        keep("exception", "free", at["mass_ratio"], span, certified(frame, pulse))
+        keep("exception", "frame", at["mass_ratio"], span, certified(frame, pulse))
     return {"table": rows, "certificates": "".join(lines)}
 
 

@@ -1,6 +1,6 @@
 """A mass fixed to the top of one column, against the same mass carried freely by two.
 
-The minimum overturning acceleration of both is compared with that of the bare column: under pulses
+The minimum overturning acceleration of both is compared with that of the column: under pulses
 of one period, and under pulses over their frequency. Under the former also with that of a portal,
 two columns and a beam in one piece, which is free to rock.
 """
@@ -39,16 +39,16 @@ DISTANCES = (
 CHUNK = 64  # factors that are tried in one call where a wide interval is sought
 SEED = 2014  # of the minima that the plain solver judges
 FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of a structure that overturns
-BARE, FIXED, FREE, PORTAL = "bare", "fixed", "free", "portal"
+COLUMN, FIXED, FRAME, PORTAL = "column", "fixed mass", "frame", "portal"
 
 
 def rivals(column: Column, gammas: Sequence[float]) -> Iterator[tuple[str, float, Structure]]:
-    """Yield the bare column, then for each γ > 0 the same mass fixed to it, and carried freely."""
-    yield BARE, 0.0, column
+    """Yield the column, then for each γ > 0 the same mass fixed to it, and carried freely."""
+    yield COLUMN, 0.0, column
     for gamma in gammas:
         if gamma > 0.0:
             yield FIXED, gamma, FixedMassColumn(column, gamma)
-            yield FREE, gamma, RockingFrame(column, gamma)
+            yield FRAME, gamma, RockingFrame(column, gamma)
 
 
 def lowest_by_two_floors(
@@ -166,7 +166,7 @@ def over_frequency(column: Column, settings: dict) -> list[dict]:
         for shape, ratio, *_, structure in cases
     ]
     intervals = lowest_by_two_floors(pairs, highest, settings)
-    bare = math.inf
+    alone = math.inf
     for case, (structure, pulse), interval in zip(cases, pairs, intervals, strict=True):
         shape, ratio, name, gamma, _ = case
         minimum = wide = math.inf
@@ -175,13 +175,13 @@ def over_frequency(column: Column, settings: dict) -> list[dict]:
             width, minimum = settings["wide"] / floor * step, interval.factor
             wide = lowest_wide(structure, pulse, minimum, highest, step, width)
             sample.append((structure, pulse, interval))
-        bare = minimum if name == BARE else bare
+        alone = minimum if name == COLUMN else alone
         rows.append(
             {"motion": shape, "frequency_ratio": ratio, "structure": name}
             | {"mass_ratio": gamma, "minimum": minimum, "wide_minimum": wide}
         )
-        if is_exception(name, minimum, bare):
-            later, earlier = (column, minimum) if name == FREE else (structure, bare)
+        if is_exception(name, minimum, alone):
+            later, earlier = (column, minimum) if name == FRAME else (structure, alone)
             falls = plain.judge(later, pulse.scaled(earlier)).overturned
             check(
                 not falls,
@@ -193,9 +193,9 @@ def over_frequency(column: Column, settings: dict) -> list[dict]:
     return rows
 
 
-def is_exception(structure: str, minimum: float, bare: float) -> bool:
-    """Whether a fixed mass overturns later than the bare column, or a frame earlier."""
-    return {BARE: False, FIXED: minimum > bare, FREE: minimum < bare}[structure]
+def is_exception(structure: str, minimum: float, alone: float) -> bool:
+    """Whether a fixed mass overturns later than the column, or a frame earlier."""
+    return {COLUMN: False, FIXED: minimum > alone, FRAME: minimum < alone}[structure]
 
 
 def rotations(structure: Structure, pulse: Pulse, cap: dict[str, float]) -> tuple[str, list[float]]:
@@ -237,23 +237,25 @@ def poses(column: Column, settings: dict) -> Iterator[dict]:
 
 def compute(settings: dict, column: dict) -> dict[str, Any]:
     """Return minima under the pulses of one period and over their frequency, and the poses."""
-    bare = Column(**column)
+    alone = Column(**column)
     return {
-        "vase": of_one_period(bare, settings),
-        "motions": over_frequency(bare, settings),
-        "poses": [*poses(bare, settings)],
+        "vase": of_one_period(alone, settings),
+        "motions": over_frequency(alone, settings),
+        "poses": [*poses(alone, settings)],
     }
 
 
 def compared(vase_motions: pd.DataFrame) -> pd.DataFrame:
-    """Return each fixed mass and frame beside the bare column, where one of the two overturns."""
+    """Return each fixed mass and frame beside the column, where one of the two overturns."""
     at = ["motion", "frequency_ratio"]
-    is_bare = vase_motions.structure == BARE
-    bare = vase_motions[is_bare].drop_duplicates(at).set_index(at)
-    table = vase_motions[~is_bare].join(bare[["minimum", "wide_minimum"]].add_suffix("_bare"), at)
-    table = table[np.isfinite(table[["minimum", "minimum_bare"]].min(axis=1))]
+    is_column = vase_motions.structure == COLUMN
+    alone = vase_motions[is_column].drop_duplicates(at).set_index(at)
+    table = vase_motions[~is_column].join(
+        alone[["minimum", "wide_minimum"]].add_suffix("_column"), at
+    )
+    table = table[np.isfinite(table[["minimum", "minimum_column"]].min(axis=1))]
     for name in ("minimum", "wide_minimum"):
-        ranks = zip(table.structure, table[name], table[f"{name}_bare"], strict=True)
+        ranks = zip(table.structure, table[name], table[f"{name}_column"], strict=True)
         table[f"{name}_reversed"] = [is_exception(*rank) for rank in ranks]
     return table
 
@@ -274,24 +276,24 @@ def ranked(table: pd.DataFrame, longest: float) -> dict[str, Any]:
 def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> dict[str, Any]:
     """Return the quoted minima, and whether the ranks of the structures hold everywhere."""
     table = compared(vase_motions)
-    free, longest = table[table.structure == FREE], settings["longest"]
-    wide = int(free.wide_minimum_reversed.sum())
+    frames, longest = table[table.structure == FRAME], settings["longest"]
+    wide = int(frames.wide_minimum_reversed.sum())
     under = vase.set_index(["structure", "mass_ratio", "shape"]).minimum_overturning
-    raised = [under[FREE, math.inf, s] / under[BARE, 0.0, s] - 1.0 for s in settings["shapes"]]
+    raised = [under[FRAME, math.inf, s] / under[COLUMN, 0.0, s] - 1.0 for s in settings["shapes"]]
     quoted = vase[vase["shape"] == "one-cosine"].set_index(["structure", "mass_ratio"])
     at = {
-        "minimum_of_the_column": (BARE, 0.0),
-        "minimum_at_mass_ratio_one": (FREE, 1.0),
-        "minimum_of_the_heaviest": (FREE, math.inf),
+        "minimum_of_the_column": (COLUMN, 0.0),
+        "minimum_at_mass_ratio_one": (FRAME, 1.0),
+        "minimum_of_the_heaviest": (FRAME, math.inf),
         "minimum_of_the_portal": (PORTAL, settings["picture"]["mass_ratio"]),
     }
     return {
         "frame_always_raises": truth(
-            not free.minimum_reversed.any() and wide == 0,
-            holds_when=not free.minimum_reversed.any(),
+            not frames.minimum_reversed.any() and wide == 0,
+            holds_when=not frames.minimum_reversed.any(),
             condition="the lowest interval of overturning accelerations counts, however narrow",
-            comparisons=len(free),
-            exceptions=free.minimum_reversed.sum(),
+            comparisons=len(frames),
+            exceptions=frames.minimum_reversed.sum(),
             exceptions_of_wide_intervals=wide,
         ),
         "support_decides": ranked(table, longest),

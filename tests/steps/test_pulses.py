@@ -267,13 +267,13 @@ def test_findings_of_the_fixed_mass(minima):
     assert broken(found) == {"support_decides"}
     assert not unmet(found)
     sizes = minima["vase"].set_index(["structure", "mass_ratio"]).equivalent_size
-    assert sizes["free", 1.0] == pytest.approx(BENT.equivalent_size, rel=1e-8)
+    assert sizes["frame", 1.0] == pytest.approx(BENT.equivalent_size, rel=1e-8)
     assert found["least_raise"]["value"] == pytest.approx(0.2340, abs=1e-4)
     assert found["minimum_of_the_column"]["value"] == pytest.approx(0.272823, abs=1e-6)
     assert found["minimum_of_the_portal"]["value"] == pytest.approx(0.918399, abs=1e-6)
     for column, holds_when in (("wide_minimum", True), ("minimum", False)):
         changed = minima["motions"].copy()
-        changed.loc[(changed.structure == "free") & (changed.frequency_ratio == 2.0), column] = 0.1
+        changed.loc[(changed.structure == "frame") & (changed.frequency_ratio == 2.0), column] = 0.1
         found = vase.findings(minima["vase"], changed, VASE)["frame_always_raises"]
         assert (found["holds"], found["holds_when"]) == (False, holds_when)
 
@@ -282,9 +282,9 @@ def test_picture_shows_the_outcomes(minima):
     poses = minima["poses"]
     fell = poses[poses.outcome == "overturned"]
     assert {*zip(fell.amplitude, fell.structure, strict=True)} == {
-        (0.24, "fixed"),
-        (0.29, "bare"),
-        (0.29, "fixed"),
+        (0.24, "fixed mass"),
+        (0.29, "column"),
+        (0.29, "fixed mass"),
     }
     lowest = poses[poses["last"]].groupby(["amplitude", "structure"]).y.min()
     assert lowest.to_numpy() == pytest.approx(0.0, abs=1e-8)
@@ -294,19 +294,19 @@ def test_picture_shows_the_outcomes(minima):
 
 VERIFIED = pd.DataFrame(
     [
-        ("minimum", "bare", 0.0, 0.2, 0.2, "survives"),
-        ("minimum", "bare", 0.0, 0.2 * (1 + 2e-8), 0.2 * (1 + 2e-8), "overturns"),
-        ("below", "bare", 0.0, 0.0, 0.1, "survives"),
-        ("below", "bare", 0.0, 0.1, 0.2, "survives"),
-        ("exception", "free", 0.0, 0.9, 0.9, "survives"),
-        ("exception", "free", math.inf, 0.9, 0.9, "overturns"),
+        ("minimum", "column", 0.0, 0.2, 0.2, "survives"),
+        ("minimum", "column", 0.0, 0.2 * (1 + 2e-8), 0.2 * (1 + 2e-8), "overturns"),
+        ("below", "column", 0.0, 0.0, 0.1, "survives"),
+        ("below", "column", 0.0, 0.1, 0.2, "survives"),
+        ("exception", "frame", 0.0, 0.9, 0.9, "survives"),
+        ("exception", "frame", math.inf, 0.9, 0.9, "overturns"),
     ],
     columns=["part", "structure", "mass_ratio", "low", "high", "outcome"],
 )
 
 
 QUOTED = pd.DataFrame(
-    [("bare", 0.0, "one-cosine", 0.2 * (1 + 1e-8)), ("bare", 0.0, "one-sine", 0.3)],
+    [("column", 0.0, "one-cosine", 0.2 * (1 + 1e-8)), ("column", 0.0, "one-sine", 0.3)],
     columns=["structure", "mass_ratio", "shape", "minimum_overturning"],
 )
 

@@ -14,7 +14,7 @@ IN_THE_GROUND = 1e-9  # m: how far a body may be
 def structures(column: Column, gamma: float, cap: dict[str, float]) -> dict[str, Structure]:
     """Return a column, the same with a mass fixed to its top, and a frame of the same γ."""
     fixed = FixedMassColumn(column, gamma, cap["width"], cap["depth"])
-    return {"bare": column, "fixed": fixed, "free": RockingFrame(column, gamma)}
+    return {"column": column, "fixed mass": fixed, "frame": RockingFrame(column, gamma)}
 
 
 def bodies(structure: Structure, rotation: float, cap: dict[str, float]) -> dict[str, np.ndarray]:
