@@ -13,7 +13,7 @@ from topheavy.ground.shapes import PULSE_SHAPES
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
 from topheavy.kernel.forcing import equation, forcing_of, ground, next_uplift, pulse_waveform
 from topheavy.kernel.grid import record_order
-from topheavy.kernel.quiet_pieces import derivatives, powers
+from topheavy.kernel.quiet_pieces import derivatives, eighth_derivative, powers
 from topheavy.kernel.step import (
     HULL,
     POLYNOMIAL,
@@ -157,7 +157,8 @@ def test_derivatives_are_those_of_the_recurrences(rotation, velocity, push, rate
     tilt, lean = math.cos(alpha - rotation), math.sin(alpha - rotation)
     force = math.sin(rotation) / math.cos(alpha) + push * tilt
     slope = math.cos(rotation) / math.cos(alpha) + push * lean
-    ours = derivatives(force, slope, rate * tilt, rate * lean, velocity)
+    at = force, slope, rate * tilt, rate * lean, velocity
+    ours = *derivatives(*at), eighth_derivative(*at)
     theirs = [w[ROTATION, n] * math.factorial(n) for n in range(3, 9)]
     size = (1 + abs(push) + abs(rate) + abs(velocity)) ** 6
     assert ours == pytest.approx(theirs, rel=1e-12, abs=1e-13 * size)

@@ -29,7 +29,7 @@ MAX_ROTATION = 0.9
 
 @compiled(fastmath={"contract"})
 def derivatives(force, slope, force_rate, slope_rate, velocity):
-    """Return the third to the eighth derivative of φ from F, G, E, H and φ'."""
+    """Return the third to the seventh derivative of φ from F, G, E, H and φ'."""
     f, g, e, h, v = force, slope, force_rate, slope_rate, velocity
     ff, gg, vv = f * f, g * g, v * v
     third = e + g * v
@@ -43,13 +43,20 @@ def derivatives(force, slope, force_rate, slope_rate, velocity):
         e * (gg - 25 * ff + vv * (5 * vv - 33 * g)) + f * h * (8 * g - 45 * vv)
         + v * (g * (gg - 33 * ff) + 10 * h * h - 20 * e * e + vv * (15 * ff - 11 * gg + g * vv))
     )  # fmt: skip
-    eighth = (
+    return third, fourth, fifth, sixth, seventh
+
+
+@compiled(fastmath={"contract"})
+def eighth_derivative(force, slope, force_rate, slope_rate, velocity):
+    """Return the eighth derivative of φ, as `derivatives`."""
+    f, g, e, h, v = force, slope, force_rate, slope_rate, velocity
+    ff, gg, vv = f * f, g * g, v * v
+    return (
         f * (18 * h * h - 70 * e * e + g * (gg - 33 * ff))
         + vv * f * (78 * ff - 102 * gg + vv * (57 * g - vv))
         + e * (10 * g * h - 138 * h * vv + f * v * (128 * vv - 192 * g))
         + h * v * (12 * gg - 156 * ff + vv * (6 * vv - 100 * g))
-    )  # fmt: skip
-    return third, fourth, fifth, sixth, seventh, eighth
+    )
 
 
 @compiled
@@ -65,15 +72,18 @@ def powers(h):
 
 @compiled(fastmath={"contract"}, forceinline=True, no_cpython_wrapper=False)
 def short_series(h, force, slope, force_rate, slope_rate, velocity, rotation, peak, bound):
-    """Return whether a piece is proven to hold nothing, by how much φ changes in it, and h φ'.
+    """Return whether a piece is proven to hold nothing, and by how much φ and φ' change in it.
 
     `h` is its length, `bound` that on the first term of φ' left out. That term may vanish, and then
-    h/7 of the last term kept stands for it.
+    h/7 of the last term kept stands for it. If the last term kept is as small, so is the first left
+    out. The sums are in pairs: each piece waits for those of the piece before it.
     """
     h1, h2, h3, h4, h5, h6, h7 = powers(h)
-    d3, d4, d5, d6, d7, d8 = derivatives(force, slope, force_rate, slope_rate, velocity)
-    if h7 * max(abs(d8), abs(d7)) > bound:
-        return False, 0.0, 0.0
+    d3, d4, d5, d6, d7 = derivatives(force, slope, force_rate, slope_rate, velocity)
+    if h6 * max(abs(d7), abs(d6)) > bound:
+        d8 = eighth_derivative(force, slope, force_rate, slope_rate, velocity)
+        if h7 * max(abs(d8), abs(d7)) > bound:
+            return False, 0.0, 0.0
     c1, c2, c3, c4, c5, c6, c7 = (
         h1 * velocity,
         h2 * force,
@@ -84,14 +94,14 @@ def short_series(h, force, slope, force_rate, slope_rate, velocity, rotation, pe
         h7 * d7,
     )
     others = abs(c3) + abs(c4) + abs(c5) + abs(c6) + abs(c7)
-    turn = c1 + c2 + (c3 + (c4 + (c5 + (c6 + c7))))
+    turn = ((c1 + c2) + (c3 + c4)) + (c5 + c6) + c7
     rises = min(c1, c1 + 2 * c2) > 7 * others
     if not rises:
         low = min(0.5 * c1, c1 + c2, 0.0) - others
         high = max(0.5 * c1, c1 + c2, 0.0) + others
         if rotation + low <= 0.0 or rotation + high > peak:
             return False, 0.0, 0.0
-    gain = 2 * c2 + 3 * c3 + 4 * c4 + 5 * c5 + 6 * c6 + 7 * c7
+    gain = ((h1 * force + h2 * d3) + (h3 * d4 + h4 * d5)) + (h5 * d6 + h6 * d7)
     return abs(turn) <= MAX_TURN, turn, gain
 
 
@@ -147,7 +157,7 @@ def skip_quiet_pieces(block, forcing, state, piece, tolerance, peak):
         )
         if not is_passed:
             break
-        velocity += gain / h
+        velocity += gain
         rotation += turn
         peak = max(peak, rotation)
         sine, cosine = turned(sine, cosine, turn)
