@@ -3,8 +3,8 @@
 import ast
 
 import pytest
-from tests.ground.records import test_reading as library
 
+from tests.ground import test_reading as library
 from topheavy import read_record
 
 TIMES = [0.0, 0.02, 0.04, 0.06, 0.08]
