@@ -5,45 +5,34 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from judge import shown
+from judge import resampled, shown
 from simulate import CONFIG, read
 
 from topheavy import STANDARD_GRAVITY, Column, RockingFrame, fragility, overturned_by
 
 
-def chosen(tests, usual):
-    """Return for each record the place of its strongest usual test, and of its middle test."""
-    order = tests.sort_values("peak")
-    is_usual = (order.peak / order.nominal_pga_g).between(*usual)
-    middle = order.groupby("record").test.apply(lambda group: group.index[len(group) // 2])
-    return {"strongest": order[is_usual].groupby("record").tail(1).index, "middle": middle}
-
-
-def gains(motions, config):
+def gains(tests, column, factors):
     """Return gains of a frame over its column in %, with 95 % intervals over the motions."""
-    column, factors = Column.of_dimensions(**config["column"]), np.geomspace(**config["factors"])
-    structures = [column, RockingFrame(column, config["mass_ratio"])]
-    fell = np.array([overturned_by(structures, motion, factors) for motion in motions])
+    structures = [column, RockingFrame(column, CONFIG["mass_ratio"])]
+    fell = np.array([overturned_by(structures, motion, factors) for motion in tests.shaking])
     lowest = np.where(fell.any(axis=2), factors[fell.argmax(axis=2)], np.nan)
-    velocity = np.array([motion.peak_velocity for motion in motions])
-    length = np.median(velocity / [motion.peak_acceleration for motion in motions])
-    levels = np.geomspace(0.5, 2, 50) * np.nanmedian(lowest[:, 0] * velocity)  # PGV, m/s
-    pair = fragility(structures, motions, levels, resamples=config["resamples"]).pairs.isel(pair=0)
-    median = [100 * pair[name].item() for name in ("gain", "gain_low", "gain_high")]
+    levels = np.geomspace(0.5, 2, 50) * np.nanmedian(lowest[:, 0] * tests.velocity)  # PGV, m/s
+    curves = fragility(structures, [*tests.shaking], levels, resamples=CONFIG["resamples"])
+    median = [100 * curves.pairs[name].item() for name in ("gain", "gain_low", "gain_high")]
     numbers = {"median": "{:.0f} ({:.0f} to {:.0f})".format(*median)}
-    numbers["length"] = f"{length / STANDARD_GRAVITY:.3f}"
-    for name, largest in (("all", np.inf), ("few", config["largest_factor"])):
+    numbers["length"] = f"{(tests.velocity / tests.peak).median() / STANDARD_GRAVITY:.3f}"
+    for name, largest in (("all", np.inf), ("few", CONFIG["largest_factor"])):
         ratio = np.log(lowest[:, 1] / lowest[:, 0])[lowest.max(axis=1) <= largest]
-        resamples = np.random.default_rng(config["seed"]).choice(
-            ratio, (config["resamples"], len(ratio))
-        )
-        means = (100 * np.expm1(each.mean(axis=-1)) for each in (ratio, resamples))
-        numbers[name], numbers[f"{name}_motions"] = shown(*means), len(ratio)
+        means = resampled(len(ratio)) @ ratio[:, None] / len(ratio)
+        numbers[name] = *shown(100 * np.expm1([ratio.mean()]), 100 * np.expm1(means)), len(ratio)
     return numbers
 
 
 if __name__ == "__main__":
-    tests, motions, _ = read(sys.argv[1], **CONFIG["left_out"])
-    places = chosen(tests, CONFIG["usual"])
-    numbers = {name: gains([motions[k] for k in each], CONFIG) for name, each in places.items()}
-    Path("results/columns.json").write_text(json.dumps(numbers, indent=1))
+    column, factors = Column.of_dimensions(**CONFIG["column"]), np.geomspace(**CONFIG["factors"])
+    tests, _ = read(sys.argv[1], **CONFIG["left_out"])
+    order = tests.sort_values("peak").groupby("record")
+    middle = order.apply(lambda tests: tests.iloc[len(tests) // 2])
+    numbers = {"strongest": gains(order.last(), column, factors)}
+    numbers["middle"] = gains(middle, column, factors)
+    Path("results/columns.json").write_text(json.dumps(numbers))

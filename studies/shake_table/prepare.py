@@ -1,6 +1,5 @@
-"""Turn the source's series into those of data/: python prepare.py Test011.txt Test012.txt ..."""
+"""Turn the source's series into those of data/: python prepare.py test_011.txt test_012.txt ..."""
 
-import re
 import sys
 from pathlib import Path
 
@@ -16,6 +15,5 @@ def prepared(acceleration):
 
 
 if __name__ == "__main__":
-    names = [f"test_{int(re.search(r'[0-9]+', Path(path).name)[0]):03d}" for path in sys.argv[1:]]
-    series = [prepared(np.loadtxt(path, usecols=1)) for path in sys.argv[1:]]
-    np.savez_compressed("accelerations.npz", **dict(zip(names, series, strict=True)))
+    series = {Path(path).stem: prepared(np.loadtxt(path, usecols=1)) for path in sys.argv[1:]}
+    np.savez_compressed("accelerations.npz", **series)
