@@ -32,6 +32,7 @@ def again(certificate):
     return check(json.loads(json.dumps(certificate)))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("structure", STRUCTURES, ids=repr)
 def test_both_sides_of_each_minimum_are_proven(structure):
     """The outcomes and impacts of the kernel, 1e-8 below and above the boundary it finds."""
@@ -51,6 +52,7 @@ def test_both_sides_of_each_minimum_are_proven(structure):
                 assert certificate["impacts"] == ending.number_of_impacts
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 @pytest.mark.parametrize("shape", FINITE_SHAPES)
 def test_outcomes_are_those_of_the_kernel(shape, block):

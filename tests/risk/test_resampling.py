@@ -154,6 +154,7 @@ def test_sign_test_is_exact():
     assert p_values == pytest.approx(np.array([[2 / 32, 1.0], [12 / 32, 1.0]]))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("motions", "median", "dispersion"), [(7, 0.11, 0.32), (40, 0.08, 0.13)])
 def test_intervals_miss_the_true_value_as_often_as_the_docstring_says(motions, median, dispersion):
     missed, samples = np.zeros(2), 400
