@@ -11,6 +11,7 @@ import pandas as pd
 import pytest
 from pydantic import ValidationError
 
+from replication import job as jobs
 from replication import step
 from replication.claims import Claim, read_claims, tolerance_fault
 from replication.config import read_config, read_yaml
@@ -239,7 +240,7 @@ def test_failed_write_leaves_no_file(tmp_path):
         (tmp_path / f"a.csv.{process}.new").touch()
     job = SimpleNamespace(rule="tiny", input=[], params={"code": list_of_modules()})
     with pytest.raises(FileNotFoundError):
-        step.publish(job, {str(tmp_path / "a.csv"): "x", str(tmp_path / "no" / "b.csv"): "x"})
+        jobs.write(job, {str(tmp_path / "a.csv"): "x", str(tmp_path / "no" / "b.csv"): "x"})
     assert [path.name for path in tmp_path.iterdir()] == ["a.csv.1.new"]
 
 

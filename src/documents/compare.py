@@ -7,8 +7,8 @@ from typing import Any
 
 import pandas as pd
 
+from replication.job import log_to, write
 from replication.sources import checksums
-from replication.step import log_to, publish
 
 REFERENCE = Path("tests/reference")
 
@@ -95,4 +95,4 @@ if __name__ == "__main__":
         for name, content in {"rules": rules, "settings": snakemake.params.settings}.items():
             text = json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False)
             texts[snakemake.output[name]] = text + "\n"
-        publish(snakemake, texts)
+        write(snakemake, texts)

@@ -9,7 +9,8 @@ import matplotlib as mpl
 
 from replication.config import read_yaml
 from replication.drawing import picture
-from replication.step import call, log_to, publish, stop, tables_of
+from replication.job import log_to, stop, write
+from replication.step import call, tables_of
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
@@ -38,4 +39,4 @@ if __name__ == "__main__":
             except Exception as error:
                 traceback.print_exc()
                 stop(f"{script}: {type(error).__name__}: {error}")
-        publish(snakemake, made)
+        write(snakemake, made)

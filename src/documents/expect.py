@@ -4,7 +4,7 @@ import csv
 import json
 from pathlib import Path
 
-from replication.step import log_to, publish, stop
+from replication.job import log_to, stop, write
 from replication.verdicts import counts, unexpected
 
 PLACES = (
@@ -48,4 +48,4 @@ if __name__ == "__main__":
         if faults(rows, comparison):
             stop(text.rstrip())  # the log has it, which the Snakefile shows at the end
         print(text, end="")
-        publish(snakemake, {snakemake.output[0]: text})
+        write(snakemake, {snakemake.output[0]: text})

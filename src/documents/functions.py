@@ -21,7 +21,8 @@ import pdoc
 
 import topheavy
 from replication.drawing import picture
-from replication.step import run, stop
+from replication.job import stop
+from replication.step import run
 
 OTHERS = "types of results, constants"
 """The heading of the names that the docstring of the package does not list."""

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.claims import read_claims
-from replication.step import log_to, publish
+from replication.job import log_to, write
 from replication.verdicts import judged, read_findings, unexpected
 
 
@@ -15,7 +15,7 @@ def work(job: Any) -> None:
     claims = [c for path, known in job.params.settings.items() for c in read_claims(path, known)]
     rows = [judged(claim, findings) for claim in claims]
     print(*unexpected(rows), sep="\n", file=sys.__stderr__)  # at once, and again at the end
-    publish(job, {job.output[0]: json.dumps(rows, indent=1, ensure_ascii=False) + "\n"})
+    write(job, {job.output[0]: json.dumps(rows, indent=1, ensure_ascii=False) + "\n"})
 
 
 def one(name: str) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from latex2mathml.converter import convert
 
-from replication.step import log_to, publish
+from replication.job import log_to, write
 
 PAGE = """
 {%- extends "lab/index.html.j2" -%}
@@ -111,4 +111,4 @@ if __name__ == "__main__":
             snakemake.output.executed: json.dumps(notebook, indent=1, ensure_ascii=False) + "\n",
             snakemake.output.page: render(notebook, source.stem),
         }
-        publish(snakemake, made, modules)
+        write(snakemake, made, modules)

@@ -8,8 +8,8 @@ import typst
 import yaml
 
 from replication.config import read_yaml
+from replication.job import log_to, stop, write
 from replication.numbers import Numbers, inputs
-from replication.step import log_to, publish, stop
 
 
 def captions(path: str, config: dict) -> dict[str, dict]:
@@ -64,4 +64,4 @@ if __name__ == "__main__":
         source, params = snakemake.input.source, snakemake.params
         texts = texts_of(params.config, snakemake.input.captions)
         checked(source, texts)
-        publish(snakemake, {snakemake.output[0]: compiled(source, texts, pdf_standards=["a-2b"])})
+        write(snakemake, {snakemake.output[0]: compiled(source, texts, pdf_standards=["a-2b"])})

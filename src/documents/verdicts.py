@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.config import read_yaml
-from replication.step import log_to, publish
+from replication.job import log_to, write
 from replication.verdicts import counted
 
 HEAD = """# Claims and verdicts
@@ -89,4 +89,4 @@ if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         claims = json.loads(Path(snakemake.input.claims).read_text("utf-8"))
         text = page(claims, read_yaml(snakemake.input.captions), snakemake.params.rules)
-        publish(snakemake, {snakemake.output[0]: text})
+        write(snakemake, {snakemake.output[0]: text})

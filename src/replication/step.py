@@ -2,25 +2,17 @@
 
 import json
 import math
-import os
-import sys
-import traceback
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from inspect import signature
 from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any
 
-if TYPE_CHECKING:
-    import numpy as np
+import numpy as np
+import pandas as pd
 
-PARENT = os.getppid()
-"""The parent of this process when the module was loaded."""
-RUN = int(os.environ.get("RUN", PARENT))
-"""The process of Snakemake; the Snakefile sets the variable."""
-ROOT = Path(__file__).resolve().parents[2]
-OURS = ("src", "figures")
+from replication.job import ROOT, log_to, stop, write
+
 DIGITS = "%.9g"
 
 
@@ -42,7 +34,7 @@ def run(job: Any, compute: Callable, findings: Callable | None = None) -> None:
     Raises
     ------
     SystemExit
-        When a result is not what the rule declares, or `publish` refuses it.
+        When a result is not what the rule declares, or `write` refuses it.
     """
     with log_to(job.log[0]):
         params = {name: content for name, content in job.params.items() if name != "code"}
@@ -61,7 +53,7 @@ def run(job: Any, compute: Callable, findings: Callable | None = None) -> None:
             }
             results = call(findings, job.rule, tables_of(job.input, written), params)
             texts[job.output.findings] = findings_text(results, compute)
-        publish(job, texts)
+        write(job, texts)
 
 
 def value(number: float, error: float, unit: str = "", **more: Any) -> dict[str, Any]:
@@ -88,17 +80,13 @@ def check(holds: bool, message: str) -> None:
         stop(f"a check of this step fails: {message}")
 
 
-def grid(spec: Mapping[str, float]) -> "np.ndarray":
+def grid(spec: Mapping[str, float]) -> np.ndarray:
     """Return the uniform grid of a config entry with lowest, highest and points."""
-    import numpy as np
-
     return np.linspace(spec["lowest"], spec["highest"], int(spec["points"]))
 
 
-def geometric(spec: Mapping[str, float]) -> "np.ndarray":
+def geometric(spec: Mapping[str, float]) -> np.ndarray:
     """Return the grid in equal ratios of a config entry with lowest, highest and points."""
-    import numpy as np
-
     return np.geomspace(spec["lowest"], spec["highest"], int(spec["points"]))
 
 
@@ -110,16 +98,10 @@ def power_above(difference: float, tolerance: float) -> float:
     return 10.0 ** math.ceil(math.log10(max(difference, tolerance)))
 
 
-def stop(message: str) -> NoReturn:
-    """End the step with a message and without a traceback."""
-    raise SystemExit(message)
-
-
 def call(
     function: Callable, rule: str, tables: Mapping[str, Any], params: Mapping[str, Any]
 ) -> Any:
     """Call a function with the tables, inputs and parameters that it takes by name."""
-    import pandas as pd
 
     def content(source: Any) -> Any:
         if isinstance(source, list):
@@ -168,72 +150,6 @@ def findings_text(findings: Mapping[str, Any], source: Callable) -> str:
         stop(f"{where(source)}: the finding '{bad}' is {findings[bad]}; expected finite numbers")
 
 
-def publish(job: Any, made: Mapping[str, str | bytes], modules: Iterable[str] = ()) -> None:
-    """Write files beside their places and rename them.
-
-    `modules` are the files of modules that another process loaded for this job.
-
-    Raises
-    ------
-    SystemExit
-        When this process loaded a module of the repository that `code` of its rule does not name: a
-        change there would leave the results stale. When the run that began the step has ended:
-        a later run may have written these files already.
-    """
-    declared = {Path(path).resolve() for path in [*job.input, *job.params.get("code", [])]}
-    files = {getattr(module, "__file__", None) for module in list(sys.modules.values())}
-    loaded = {Path(path).resolve() for path in {*files, *modules} if path}
-    inside = {path.relative_to(ROOT) for path in loaded - declared if path.is_relative_to(ROOT)}
-    other = sorted(
-        str(p)
-        for p in loaded
-        if p.parts[-2:] == ("topheavy", "__init__.py") and not p.is_relative_to(ROOT)
-    )
-    if other:
-        stop(
-            f"rule {job.rule} loaded {other[0]}, which is not in this folder: "
-            "uv sync, or pip install -e ."
-        )
-    if gap := sorted(str(path) for path in inside if path.parts[0] in OURS):
-        stop(
-            f"rule {job.rule} loaded {', '.join(gap)}, which its `code` does not name: a change "
-            "there would leave its results stale. Import it by a statement, or name it in `code`"
-        )
-    if os.getppid() != PARENT or not _alive(RUN):
-        stop("the run that began this step has ended: nothing is written")
-    new = {path: f"{path}.{os.getpid()}.new" for path in made}
-    for path in made:
-        for left in Path(path).parent.glob(f"{Path(path).name}.*.new"):
-            if not _alive(int(left.name.split(".")[-2])):  # by a process that was killed
-                left.unlink()
-    try:
-        for path, content in made.items():
-            Path(new[path]).write_bytes(content.encode() if isinstance(content, str) else content)
-        for path in made:
-            os.replace(new[path], path)
-    finally:
-        for path in new.values():
-            Path(path).unlink(missing_ok=True)
-
-
-@contextmanager
-def log_to(path: str) -> Iterator[None]:
-    """Send what is printed, and the error if it comes to that, to the log that Snakemake shows."""
-    kept = sys.stdout, sys.stderr
-    with Path(path).open("w", encoding="utf-8") as log:
-        sys.stdout = sys.stderr = log
-        try:
-            yield
-        except SystemExit as error:
-            print(error.code)
-            raise SystemExit(1) from None
-        except Exception:
-            traceback.print_exc()
-            raise SystemExit(1) from None
-        finally:
-            sys.stdout, sys.stderr = kept
-
-
 def where(function: Callable) -> str:
     """Return the script of a function, from the root of the repository."""
     path = Path(function.__globals__["__file__"]).resolve()
@@ -241,8 +157,6 @@ def where(function: Callable) -> str:
 
 
 def _text(made: Any, path: str, compute: Callable, rule: str) -> str | bytes:
-    import pandas as pd
-
     if isinstance(made, str | bytes) and not path.endswith(".csv"):
         return made
     columns = made.values() if isinstance(made, Mapping) else []
@@ -252,14 +166,6 @@ def _text(made: Any, path: str, compute: Callable, rule: str) -> str | bytes:
             f"{path}. Return a pandas.DataFrame; findings(table) draws the findings from it"
         )
     return pd.DataFrame(made).to_csv(index=False, float_format=DIGITS, lineterminator="\n")
-
-
-def _alive(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except OSError:
-        return False
-    return True
 
 
 def _plain(item: Any) -> Any:

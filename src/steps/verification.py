@@ -222,7 +222,6 @@ def findings(verification_routes, verification_published, verification_closed_fo
         "comparisons": value(routes.cells.sum(), 0.0),
         "error_99": value(apart, 0.0),
         "farthest_from_print": value(off_print.max(), 0.0),
-        "farthest_from_closed_form": value(off_form, 0.0),
     }
 
 

@@ -61,10 +61,6 @@ def findings(designers):
     # A block as large as the frame's equivalent column moves R̂/R times as far as the beam.
     least, most = (gains[name] * gains.size_ratio for name in ("moved_least", "moved_most"))
     return {
-        "scale_is_no_bound": truth(
-            (gains.gain_most > gains.velocity_scale).any()
-            and (gains.gain_least < gains.velocity_scale).any()
-        ),
         "larger_block_moves_no_farther": truth(
             (most <= 1.0).all(), least=least.min(), most=most.max()
         ),
