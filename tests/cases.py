@@ -13,6 +13,7 @@ from documents import check
 from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact as closed
 from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES
+from topheavy.kernel.forcing import forcing_of, pulse_waveform
 from topheavy.kernel.grid import outcomes_of
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -71,3 +72,8 @@ def grid_of(block, waveform, scales, amplitudes, **named):
     which = np.zeros(cells[0].size, np.int64)
     found = outcomes_of([block], waveform, which, *cells, **named)
     return [values.reshape(len(scales), len(amplitudes)) for values in found]
+
+
+def pulse_forcing(shape, amplitude, ratio, cycles=1):
+    """A pulse with ω/p = `ratio`, as the kernel has it."""
+    return forcing_of(pulse_waveform(shape, cycles), ratio, amplitude, 0.0)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from steps.shared.segments import segments_of
+from tests.cases import pulse_forcing
 from topheavy import Pulse, Record, RockingBlock
 from topheavy.ground.shapes import PULSE_SHAPES, RICKER_SYMMETRIC
 from topheavy.kernel import forcing
@@ -16,20 +17,12 @@ from topheavy.kernel.forcing import (
     ground,
     next_uplift,
     piece_of,
-    pulse_waveform,
     record_waveform,
     unit_pulse,
 )
-from topheavy.kernel.grid import outcome_of, outcomes_of
 from topheavy.kernel.rest import comes_to_rest
 from topheavy.kernel.step import TOLERANCE, working_array
 from topheavy.kernel.taylor import ROTATION, Method, State, expand, oscillator
-
-
-def pulse_forcing(shape, amplitude, ratio, cycles=1):
-    """A pulse with ω/p = `ratio`."""
-    return forcing_of(pulse_waveform(shape, cycles), ratio, amplitude, 0.0)
-
 
 RATIO = 2.5  # ω/p; with p = 1 the kernel's time is that of a `Pulse`
 PULSES = [*((shape, 1) for shape in PULSE_SHAPES), ("one-sine", 3), ("one-cosine", 7)]
@@ -228,53 +221,3 @@ def test_rest_is_not_called_when_gravity_is_about_to_fall():
             push = -side * 0.9 * BLOCK.uplift_level - BLOCK.uplift_level
             state = State(0.0185, side, 0.0, 2e-6, 0.0, 1.0, push, 0.0, 1.0, 0.0)
             assert comes_to_rest(BLOCK, there, state, 1.0) is expected
-
-
-@RATIOS
-@pytest.mark.parametrize("tolerance", [TOLERANCE, 1e-14])
-def test_blocks_of_both_equations_each_have_their_own_factors_on_both_records(ratio, tolerance):
-    rng = np.random.default_rng(8)
-    blocks = [
-        oscillator(RockingBlock(1.0, alpha, restitution, linearised))
-        for alpha, restitution in ((0.09, 0.95), (0.2, 0.9), (0.5, 0.5))
-        for linearised in (False, True)
-    ]
-    block_index = rng.integers(0, len(blocks), 60)
-    steps = rng.choice([0.011, 0.02, 0.05], block_index.size)
-    factors = np.array([block.uplift_level for block in blocks])[block_index] * rng.uniform(
-        0.8, 6.0, 60
-    )
-    vertical_factors = rng.uniform(-1.8, 1.8, block_index.size)
-    _, _, both = shaken(4, ratio)
-    outcomes = outcomes_of(
-        blocks,
-        both,
-        block_index,
-        steps,
-        factors,
-        vertical_factors=vertical_factors,
-        tolerance=tolerance,
-    )
-    for k in range(block_index.size):
-        one = (blocks[block_index[k]], both, steps[k], factors[k])
-        alone = outcome_of(*one, vertical_factor=vertical_factors[k], tolerance=tolerance)
-        assert outcomes[1][k] == alone.overturned
-        np.testing.assert_array_equal(outcomes[0][k], alone.peak_rotation)
-        assert outcomes[2][k] == alone.number_of_impacts
-        across = record_waveform(shaken(4, ratio)[0])
-        plain = outcome_of(one[0], across, *one[2:], tolerance=tolerance)
-        if not (alone.overturned or plain.overturned) and plain.peak_rotation > 0.05:
-            assert abs(alone.peak_rotation - plain.peak_rotation) > 1e-6
-    assert 0.1 < outcomes[1].mean() < 0.9
-    back = slice(None, None, -1)
-    cells = (block_index[back], steps[back], factors[back])
-    again = outcomes_of(
-        blocks,
-        both,
-        *cells,
-        vertical_factors=vertical_factors[back],
-        tolerance=tolerance,
-        threads=2,
-    )
-    for one, other in zip(outcomes, again, strict=True):
-        np.testing.assert_array_equal(one, other[back])

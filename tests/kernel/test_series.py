@@ -8,10 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.polynomial import polynomial
 
+from tests.cases import BLOCK, BOTH, pulse_forcing
 from topheavy import RockingBlock
 from topheavy.ground.shapes import PULSE_SHAPES
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
-from topheavy.kernel.forcing import equation, forcing_of, ground, next_uplift, pulse_waveform
+from topheavy.kernel.forcing import equation, ground, next_uplift
 from topheavy.kernel.grid import record_order
 from topheavy.kernel.quiet_pieces import derivatives, eighth_derivative, powers
 from topheavy.kernel.step import (
@@ -33,14 +34,7 @@ from topheavy.kernel.taylor import (
     oscillator,
 )
 
-BLOCK = RockingBlock(2.0, 0.25, 0.9)
-BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 ORDER = MAX_ORDER
-
-
-def pulse_forcing(shape, amplitude, ratio):
-    """A pulse with ω/p = `ratio`."""
-    return forcing_of(pulse_waveform(shape), ratio, amplitude, 0.0)
 
 
 def state_of(block, motion, time, side, rotation, velocity):

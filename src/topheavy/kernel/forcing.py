@@ -55,50 +55,22 @@ SAME_TIME = 1e-9
 
 
 class Waveform(NamedTuple):
-    """What a ground motion is, apart from its scale in time and its amplitude.
+    """What a ground motion is, apart from its scale in time and its amplitude."""
 
-    Attributes
-    ----------
-    wave : int
-        The place of a pulse's wave in `shapes.WAVES`, or `RECORD`, or `NONE`.
-    last_phase : float
-        The phase ωt at which a pulse ends.
-    record : ndarray
-        As `prepare_record` returns it; `NO_RECORD` of a pulse.
-    """
-
-    wave: int
-    last_phase: float
-    record: Array
+    wave: int  # the place of a pulse's wave in `shapes.WAVES`, or `RECORD`, or `NONE`
+    last_phase: float  # the phase ωt at which a pulse ends
+    record: Array  # as `prepare_record` returns it; `NO_RECORD` of a pulse
 
 
 class Forcing(NamedTuple):
-    """A ground motion in the time τ = p t.
-
-    Attributes
-    ----------
-    wave : int
-        See `Waveform`.
-    amplitude : float
-        Of a pulse, g; of a record, the factor on it.
-    frequency : float
-        ω/p of a pulse; 1 for a record.
-    end : float
-        The τ at which the motion is over.
-    step : float
-        p Δt of a record.
-    vertical_factor : float
-        The factor on the vertical record.
-    record : ndarray
-        See `Waveform`.
-    """
+    """A ground motion in the time τ = p t."""
 
     wave: int
-    amplitude: float
-    frequency: float
-    end: float
-    step: float
-    vertical_factor: float
+    amplitude: float  # of a pulse, g; of a record, the factor on it
+    frequency: float  # ω/p of a pulse; 1 for a record
+    end: float  # the τ at which the motion is over
+    step: float  # p Δt of a record
+    vertical_factor: float  # on the vertical record
     record: Array
 
 

@@ -1,15 +1,18 @@
 """Many rocking histories: outcomes of blocks under pulses of one shape, or under one record.
 
 A scale is ω/p of a pulse, p Δt of a record. Threads share the histories; no result depends on their
-number.
+number. Compiled code does not look for signals, and Python only between its own instructions. Hence
+long calls run in threads that hold no lock of Python's, while the main thread waits for them: a
+wait that Ctrl-C ends.
 """
 
 import math
 import os
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,34 +30,27 @@ from topheavy.kernel.history import (
     judge,
     sample,
 )
-from topheavy.kernel.interrupt import MIN_THREADED_SAMPLES, in_threads
-from topheavy.kernel.step import MAX_STEPS, PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.step import HALT, MAX_STEPS, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import Method, Oscillator
 
 #: Histories are split into at most so many batches, which threads take up as they come free.
 MAX_BATCHES = 64
 #: The least number of histories in a batch: fewer are over before a second thread has started.
 MIN_PULSES, MIN_FACTORS = 256, 32
+#: Histories of fewer samples, all together, are over within a second or two, whatever happens.
+MIN_THREADED_SAMPLES = 100_000
+
+Result = TypeVar("Result")
 
 
 class Cells(NamedTuple):
-    """Arrays with a value for each history.
+    """Arrays with a value for each history."""
 
-    Attributes
-    ----------
-    block : array of int
-        Its row of the array of blocks.
-    scale, amplitude, vertical_factor : array
-        ω/p or p Δt, amplitude or factor, and the factor on the vertical record.
-    order : array of int
-        The order of its series.
-    """
-
-    block: NDArray[np.int64]
-    scale: Array
-    amplitude: Array
-    vertical_factor: Array
-    order: NDArray[np.int64]
+    block: NDArray[np.int64]  # its row of the array of blocks
+    scale: Array  # ω/p or p Δt
+    amplitude: Array  # of a pulse, or the factor on a record
+    vertical_factor: Array  # on the vertical record
+    order: NDArray[np.int64]  # of its series
 
 
 class Results(NamedTuple):
@@ -236,3 +232,28 @@ def _unresolved(
         f"(slenderness {block.slenderness:.6g} rad, restitution {block.restitution:.6g}, "
         f"{equation} equation) bounces too often; a smaller restitution lets it come to rest"
     )
+
+
+def in_threads(calls: Sequence[Callable[[Array], Result]], threads: int = 1) -> list[Result]:
+    """Return what the calls return; each thread takes the next and gives it its working array.
+
+    Whatever ends the wait halts the histories under way at their next step, and all that follow at
+    their first.
+    """
+    results: dict[int, Result] = {}
+    waiting = enumerate(calls)
+    arrays = [working_array() for _ in range(threads)]
+
+    def work(w: Array) -> None:
+        for number, call in waiting:
+            results[number] = call(w)
+
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for done in [pool.submit(work, w) for w in arrays]:
+                done.result()
+        except BaseException:
+            for w in arrays:
+                w[HALT, 0] = 1.0
+            raise
+    return [results[number] for number in range(len(calls))]

@@ -64,79 +64,36 @@ free_rocking = compiled(outcome_of_energy)
 
 
 class Samples(NamedTuple):
-    """Arrays that a history fills.
+    """Arrays that a history fills."""
 
-    Attributes
-    ----------
-    times : array
-        Ascending τ. The last may be infinite: the end.
-    motion : array, shape (2, times.size)
-        Takes θ and dθ/dτ at the times, and is left as it was beyond the end of a block that does
-        not rest.
-    impact_times : array
-        Takes the times of impacts.
-    """
-
-    times: Array
-    motion: Array
+    times: Array  # ascending τ; the last may be infinite: the end
+    motion: Array  # shape (2, times.size): θ and dθ/dτ, left as it was beyond an end without rest
     impact_times: Array
 
 
 class History(NamedTuple):
-    """How a history ended.
-
-    Attributes
-    ----------
-    end : float
-        The time at which it ended.
-    result : int
-        `NO_UPLIFT`, `RESTS`, `ROCKING` or `OVERTURNED`, as the whole motion ends; `UNRESOLVED` if
-        it takes too many steps, or more impacts than `Samples.impact_times` has room for.
-    peak : float
-        The largest |θ| of the whole motion.
-    impacts : int
-        The number of impacts until the forcing ended or the block was judged overturned.
-    all_impacts : int
-        The number of all impacts: how many `Samples.impact_times` holds. Neither counts those that
-        end a rotation below `rest.MIN_COUNTED_PEAK` α.
-    """
+    """How a history ended. Impacts after a rotation below `rest.MIN_COUNTED_PEAK` do not count."""
 
     end: float
     result: int
-    peak: float
-    impacts: int
-    all_impacts: int
+    """`NO_UPLIFT`, `RESTS`, `ROCKING` or `OVERTURNED`, as the whole motion ends; `UNRESOLVED` if it
+    takes too many steps, or more impacts than `Samples.impact_times` has room for."""
+    peak: float  # the largest |θ| of the whole motion
+    impacts: int  # until the forcing ended or the block was judged overturned
+    all_impacts: int  # how many `Samples.impact_times` holds
 
 
 class RockingState(NamedTuple):
-    """The motion of a block so far.
-
-    Attributes
-    ----------
-    state : State
-    zero_order : int
-        How many of φ, φ', φ'' are zero; see `step.advance`.
-    piece : int
-        The piece of the record.
-    rocks : bool
-        Whether the block is off the ground, or has just landed and does not come to rest.
-    is_low : bool
-        Whether the flight is below `rest.MIN_COUNTED_PEAK` α so far.
-    has_rocked : bool
-    peak : float
-        The largest φ.
-    impacts : int
-        The number of impacts that count.
-    """
+    """The motion of a block so far."""
 
     state: State
-    zero_order: int
-    piece: int
-    rocks: bool
-    is_low: bool
+    zero_order: int  # how many of φ, φ', φ'' are zero; see `step.advance`
+    piece: int  # of the record
+    rocks: bool  # off the ground, or has just landed and does not come to rest
+    is_low: bool  # the flight is below `rest.MIN_COUNTED_PEAK` α so far
     has_rocked: bool
-    peak: float
-    impacts: int
+    peak: float  # the largest φ
+    impacts: int  # those that count
 
 
 @compiled(nogil=True)

@@ -33,7 +33,7 @@ NOTHING, LANDING, FLAT = range(3)
 #: [0, 1], their Bernstein coefficients, the roots found, and the stack of `bernstein.roots`.
 POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, ROOTS, STACK = range(7, 13)
 #: The row that begins with 1 when a history is to be given up: see `bernstein.roots` and
-#: `topheavy.kernel.interrupt`.
+#: `grid.in_threads`.
 HALT = STACK + MAX_DEPTH
 
 

@@ -75,21 +75,11 @@ class State(NamedTuple):
 
 
 class Method(NamedTuple):
-    """How a step is taken.
+    """How a step is taken."""
 
-    Attributes
-    ----------
-    order : int
-        The order of the series of φ.
-    tolerance : float
-        Bound on the last two terms of φ' in a step, normalised by α (by φ where that is larger).
-    is_straight : bool
-        Whether a and G are straight lines over a step: a record's piece, a constant, no motion.
-    """
-
-    order: int
-    tolerance: float
-    is_straight: bool
+    order: int  # of the series of φ
+    tolerance: float  # bound on the last two terms of φ' in a step, normalised by α (φ if larger)
+    is_straight: bool  # a and G are straight lines: a record's piece, a constant, no motion
 
 
 #: Rows of the working array `w`: the coefficients of φ, φ', sin φ, cos φ, cos(α − φ), q and G by
