@@ -1,9 +1,8 @@
 """The model of Allen et al. beside the exact frame: histories and error of the peak."""
 
-from drawing import gamma
 from palette import MODEL
 
-from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
+from replication.drawing import DOUBLE, GREY, INK, gamma, letter, note, sheet
 
 MODELS = {  # the simplifications of Allen et al. (1986), one at a time and together
     "linearised": "linearised",

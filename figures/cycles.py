@@ -4,10 +4,9 @@ import math
 from itertools import pairwise
 
 import numpy as np
-from drawing import gamma
 from palette import CAUSED
 
-from replication.drawing import DOUBLE, INK, PAPER, letter, note, shades, sheet
+from replication.drawing import DOUBLE, INK, PAPER, gamma, letter, note, shades, sheet
 
 RANGE = 1.4, 2.6  # of a/(g tan α)
 

@@ -1,10 +1,9 @@
 """Outcomes, coefficients of restitution, and frames across their plane in a rigid-body engine."""
 
 import numpy as np
-from drawing import gamma
 from palette import OVERTURNS, SURVIVES, greys
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, gamma, letter, note, shades, sheet
 
 SHAPES = {"one-sine": "sine", "ricker-symmetric": "Ricker"}
 DOTS = {

@@ -1,9 +1,8 @@
 """Share of pulses under which a coefficient of friction prevents sliding."""
 
 import numpy as np
-from drawing import gamma
 
-from replication.drawing import DOUBLE, GREY, INK, letter, note, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, gamma, letter, note, shades, sheet
 
 ENDS = (0.14, 1.2)  # of the axis of friction
 

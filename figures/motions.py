@@ -1,9 +1,8 @@
 """Probability of overturning against the peak ground velocity, and gain of the frame by model"""
 
-from drawing import gamma
 from palette import ALONE, EQUAL, FIXED
 
-from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
+from replication.drawing import DOUBLE, GREY, INK, gamma, letter, note, sheet
 
 FAMILIES = ("near-fault", "broadband")
 DASHES = ("-", "--")  # of the sets of a family, by earthquake

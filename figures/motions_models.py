@@ -2,10 +2,9 @@
 
 import math
 
-from drawing import gamma
 from palette import ALONE, EQUAL, FIXED
 
-from replication.drawing import DARKEST, DOUBLE, letter, sheet
+from replication.drawing import DARKEST, DOUBLE, gamma, letter, sheet
 
 SHADES = {0.0: ALONE, 1.0: EQUAL, math.inf: DARKEST}  # a beam as heavy as both columns, and heavier
 COLOURS = {"fixed": FIXED, "column": ALONE, "frame": EQUAL}

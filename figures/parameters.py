@@ -1,9 +1,8 @@
 """Size, frequency parameter and coefficient of restitution of the frame."""
 
 import numpy as np
-from drawing import gamma
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, gamma, letter, note, shades, sheet
 
 ASIDE = {"textcoords": "offset points"}
 LEADER = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 0}

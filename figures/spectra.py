@@ -1,10 +1,20 @@
 """Minimum overturning acceleration against frequency, over p of the column and over p̂ of each."""
 
 import numpy as np
-from drawing import HIGHEST, PULSES, amplitude_axis, gamma
 
-from replication.drawing import DOUBLE, GREY, PAPER, letter, note, shades, sheet
+from replication.drawing import (
+    DOUBLE,
+    GREY,
+    PAPER,
+    PULSES,
+    gamma,
+    letter,
+    note,
+    shades,
+    sheet,
+)
 
+HIGHEST = 12.0  # a/(g tan α) of the axes
 MASS_RATIOS = [0.0, 1.0, np.inf]  # 1: as heavy as both columns
 SHORT = {"one-sine": 2, "one-cosine": 3}  # order n: minima without an impact tend to (ω/p̂)ⁿ/2π
 
@@ -17,7 +27,9 @@ def slower(mass_ratio):
 
 def panel(axis, cells, scaled):
     """Draw a line for each γ, with an open circle where it ends within the axes."""
-    amplitude_axis(axis)
+    axis.set(yscale="log", xlim=(0.5, 8), ylim=(0.93, HIGHEST), xticks=(1, 2, 4, 6, 8))
+    axis.set_yticks(ticks := (1, 2, 3, 5, 10), map(str, ticks))
+    axis.set_yticks([], minor=True)
     for mass_ratio, colour in zip(MASS_RATIOS, shades(len(MASS_RATIOS)), strict=True):
         found = cells[cells.mass_ratio == mass_ratio].groupby("frequency_ratio").lower.min()
         frequencies = found.index.to_numpy() * (slower(mass_ratio) if scaled else 1.0)

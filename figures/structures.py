@@ -1,10 +1,9 @@
 """The paper's Fig. 1: four structures with their minima, their restoring moment and inertia."""
 
-from drawing import gamma
 from matplotlib.patches import Rectangle
 from palette import CAP, FIXED, FORCE, STONE
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, gamma, letter, note, shades, sheet
 
 GAP, SPAN, OVERHANG = (
     5.2,

@@ -1,8 +1,6 @@
 """Base shear of frames that rock and of a rigid one that is clamped, over the ground's peak."""
 
-from drawing import gamma
-
-from replication.drawing import INK, SINGLE, note, shades, sheet
+from replication.drawing import INK, SINGLE, gamma, note, shades, sheet
 
 
 def draw(uplift):

@@ -2,12 +2,22 @@
 
 import math
 
-from drawing import gamma
 from matplotlib.offsetbox import AnnotationBbox, DrawingArea
 from matplotlib.patches import Polygon, Rectangle
 from palette import FIXED, OVERTURNED, OVERTURNS, ROCKS, SURVIVES
 
-from replication.drawing import DARKEST, DOUBLE, GREY, INK, LIGHTEST, PAPER, letter, note, sheet
+from replication.drawing import (
+    DARKEST,
+    DOUBLE,
+    GREY,
+    INK,
+    LIGHTEST,
+    PAPER,
+    gamma,
+    letter,
+    note,
+    sheet,
+)
 
 PLACES = {"column": 0.0, "fixed mass": 8.4, "frame": 19.3}  # m: the middle of each
 NAMES = {

@@ -3,12 +3,11 @@
 import math
 
 import numpy as np
-from drawing import PULSES
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from palette import CAUSED, OVERTURNED, OVERTURNS, PREVENTED, SURVIVES
 
-from replication.drawing import DOUBLE, GREY, INK, PALE, PAPER, letter, note, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, PALE, PAPER, PULSES, letter, note, shades, sheet
 
 WINDOW = (0.5, 6.0, 1.0, 16.0)  # ω/p and a/(g tan α) of the picture
 STRUCTURES = dict(zip((0.0, math.inf), shades(2), strict=True))  # colours, by γ

@@ -1,6 +1,7 @@
 """Common parts of all figures: read the tables, apply the style, save the same bytes each time."""
 
 import io
+import math
 from collections.abc import Sequence
 from typing import Any
 from xml.sax.saxutils import escape
@@ -20,6 +21,13 @@ SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 INK, GREY, PALE, PAPER = "#1a1a1a", "#737373", "#f2f2f2", "#ffffff"
 ACCENT = "#c8501a"
 LIGHTEST, DARKEST = (0.36, 0.58, 0.80), (0.02, 0.12, 0.32)  # 3 to 1 on white, and more
+
+PULSES = {
+    "one-sine": "One sine",
+    "one-cosine": "One cosine",
+    "ricker-symmetric": "Symmetric Ricker",
+    "ricker-antisymmetric": "Antisymmetric Ricker",
+}
 
 PLACES = 6  # decimals of the places of axes, over the size of the figure
 
@@ -96,3 +104,8 @@ def letter(axes: Sequence[Axes], titles: Sequence[str], first: str = "a") -> Non
 def note(axis: Axes, text: str, at: tuple[float, float], **how) -> None:
     """Write a label at a point of the data, in the label's colour and place."""
     axis.annotate(text, at, **{"fontsize": 7.5, "va": "center"} | how)
+
+
+def gamma(value: float) -> str:
+    """Return "γ = …" for a mass ratio."""
+    return r"$\gamma=\infty$" if math.isinf(value) else f"$\\gamma$ = {value:g}"
