@@ -163,28 +163,6 @@ rule comparison:
         "../src/documents/compare.py"
 
 
-rule verdicts:
-    input:
-        claims="results/claims.json",
-        captions="figures/captions.yaml",
-    output:
-        report("results/verdicts.md", caption="report.rst", category="Verdicts"),
-    log:
-        "results/logs/verdicts.log",
-    benchmark:
-        "results/benchmarks/verdicts.tsv"
-    params:
-        code=code("src/documents/verdicts.py"),
-        rules={
-            name: {"script": rule["script"], "tables": rule["tables"]}
-            for name, rule in RULES.items()
-        },
-    message:
-        "Writing the list of verdicts"
-    script:
-        "../src/documents/verdicts.py"
-
-
 for document in ["report", "supplement"]:
 
     rule:
@@ -210,6 +188,46 @@ for document in ["report", "supplement"]:
             f"Compiling the {document}"
         script:
             "../src/documents/typeset.py"
+
+
+# The pages of results/site, and the lists of docs/ from the same rows.
+rule site:
+    input:
+        made(".svg"),
+        made(".csv"),
+        made(".json"),
+        sources=glob("paper/*.typ") + ["paper/references.bib", "CITATION.cff"],
+        claims="results/claims.json",
+        rules="results/rules.json",
+        captions="figures/captions.yaml",
+        head="paper/site/head.css",
+        style="paper/site/site.css",
+        font="paper/site/math.woff",
+        pdfs=["paper/report.pdf", "paper/supplement.pdf"],
+        finished=[path for path in made(".html")],
+        scripts=["config/config.yaml"]
+        + sorted(
+            path
+            for path in imported(*sum(SCRIPTS.values(), ()))
+            if path.endswith(".py")
+        ),
+    output:
+        site=directory("results/site"),
+        numbers="results/numbers.md",
+        verdicts=report(
+            "results/verdicts.md", caption="report.rst", category="Verdicts"
+        ),
+    log:
+        "results/logs/site.log",
+    benchmark:
+        "results/benchmarks/site.tsv"
+    params:
+        code=code("src/documents/site.py"),
+        config=PAPER,
+    message:
+        "Making the pages of results/site"
+    script:
+        "../src/documents/site.py"
 
 
 # Documents do not wait for it: they are made, too, when a verdict is not the expected one.

@@ -5,7 +5,7 @@ import re
 import pytest
 import yaml
 
-from documents.verdicts import page
+from documents import lists
 from tests.cases import ROOT
 
 TEXTS = {name: (ROOT / f"paper/{name}.typ").read_text("utf-8") for name in ("report", "supplement")}
@@ -34,31 +34,32 @@ def test_the_abstract_has_the_results_of_the_paper_and_the_plane():
 
 CLAIM = {
     "id": "uplift", "where": "p. 3", "statement": "At |θ| = 0.", "printed": 0.275, "unit": "g",
-    "rule": "trilith", "differs": "", "remark": "For one pulse.", "part": "paper",
-    "verdict": "confirmed", "shown": "0.2750 g", "condition": None,
+    "rule": "trilith", "finding": "uplift", "differs": "", "remark": "For one pulse.",
+    "part": "paper", "verdict": "confirmed", "shown": "0.2750 g", "condition": None,
 }  # fmt: skip
-RULES = {"trilith": {"script": "src/steps/trilith.py", "tables": ["results/tables/trilith.csv"]}}
+
+
+def claims(*rows, captions=None):
+    return lists.claims(lists.Run({}, {}, list(rows), captions or {}, {}, []), lists.Docs())
 
 
 def test_a_confirmed_claim_is_one_line_with_links():
-    text = page([CLAIM], {"map": {"claims": ["uplift"]}}, RULES)
+    text = claims(CLAIM, captions={"map": {"claims": ["uplift"]}})
     assert (
-        "| `uplift`, p. 3. At &#124;θ&#124; = 0. (printed 0.275 g, computed 0.2750 g) | confirmed "
-        "| [trilith.py](../src/steps/trilith.py) [figures/map.py](../figures/map.py) |"
+        '| <a id="uplift"></a>`uplift`, p. 3. At &#124;θ&#124; = 0. | 0.275 g | 0.2750 g | '
+        "**confirmed** | [trilith.uplift](numbers.md#trilith.uplift), "
+        "[figures/map.py](../figures/map.py) |"
     ) in text
-    assert "- [trilith.py](../src/steps/trilith.py): [trilith.csv](../tests/reference/" in text
     assert "For one pulse." not in text
 
 
-def test_another_claim_has_a_paragraph_and_a_discrepancy_its_place():
-    rows = [
-        CLAIM | {"verdict": "qualified", "condition": "ω is at most 2 p"},
-        CLAIM | {"differs": "sign"},
-    ]
-    text = page(rows, {}, RULES)
-    assert "**`uplift`** (qualified). True if ω is at most 2 p. For one pulse." in text
-    assert "| confirmed (our copy differs) |" in text
-    assert text.endswith("- p. 3 (`uplift`), sign. For one pulse.\n")
+def test_other_claims_come_first_with_a_reason_and_a_discrepancy_has_its_place():
+    qualified = CLAIM | {"id": "late", "verdict": "qualified", "condition": "ω is at most 2 p"}
+    text = claims(CLAIM, CLAIM | {"id": "copy", "differs": "sign"}, qualified)
+    assert "<br>True if ω is at most 2 p. For one pulse. |" in text
+    assert "**confirmed** (our copy differs) |" in text
+    assert "- p. 3 (`copy`), sign. For one pulse." in text
+    assert text.index('id="late"') < text.index('id="copy"') < text.index('id="uplift"')
 
 
 ENTRIES = (ROOT / "paper/references.bib").read_text("utf-8").split("\n@")[1:]

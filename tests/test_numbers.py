@@ -48,7 +48,10 @@ def test_a_text_names_inputs_and_their_source(text, marked, printed):
     [
         ("<p>It fell. It took 12.3&nbsp;s, e.g.</p>", [("12.3", "It took 12.3 s, e.g.")]),
         ("<td>6.5</td><td>M 7</td>", [("6.5", "6.5"), ("7", "M 7")]),
-        ('<p>It took <span class="number" title="vase.time">12</span> s, or 3.</p>', [("3", None)]),
+        (
+            '<p>It took <a class="number" title="vase.time" href="">12</a> s, or 3.</p>',
+            [("3", None)],
+        ),
         ('<p>Order <span class="typed" title="a name">8</span>.</p>', []),
         ('<div class="typed"><p>Frame 1.</p><p>Frame 2.</p></div><p>7</p>', [("7", "7")]),
         ("<p>At <math><mi>γ</mi><mo>=</mo><mn>0.5</mn></math>.</p>", [("0.5", "At γ=0.5.")]),

@@ -8,9 +8,8 @@ from replication.job import log_to, stop, write
 from replication.verdicts import counts, unexpected
 
 PLACES = (
-    "article: paper/report.pdf, supplement: paper/supplement.pdf, every verdict: "
-    "results/verdicts.md, tables: results/tables/, figures: figures/*.svg, "
-    "notebooks: results/notebooks/"
+    "to read all of it: open results/site/index.html; paper/report.pdf, paper/supplement.pdf, "
+    "tables: results/tables/, figures: figures/*.svg, notebooks: results/notebooks/"
 )
 
 

@@ -175,8 +175,8 @@ def page(module: pdoc.doc.Module, shown: dict[str, str]) -> str:
 
     text = re.sub(r"FIGURE-([\w.]+)", figure, text)
     text = text.replace("topheavy API documentation", "Functions of topheavy")
-    text = text.replace("<h2>API Documentation</h2>", "<h2>Functions</h2>")
-    text = re.sub(r'<h6 id="[^"]*">(.*?)</h6>', r"<h6>\1</h6>", text)  # an id for all functions
+    text = text.replace("<h2>API Documentation</h2>", "<p><b>Functions</b></p>")
+    text = re.sub(r'<h6 id="[^"]*">(.*?)</h6>', r"<h3>\1</h3>", text)  # an id for all functions
     text = re.sub(r'(?s)(<a class="class"[^>]*>\w+</a>)\s*<ul.*?</ul>', r"\1", text)  # of members
     for title, (first, *_) in headings().items():
         text = text.replace(f'<section id="{first}">', f'<h2>{title}</h2>\n<section id="{first}">')

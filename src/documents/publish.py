@@ -23,6 +23,7 @@ PAGES = {
     "paper/report.pdf": "report.pdf",
     "paper/supplement.pdf": "supplement.pdf",
     "results/verdicts.md": "verdicts.md",
+    "results/numbers.md": "numbers.md",
     "results/explorer.html": "explorer.html",
     "results/functions.html": "functions.html",
     "results/animation.gif": "animation.gif",

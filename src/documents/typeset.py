@@ -12,8 +12,12 @@ from replication.job import log_to, stop, write
 from replication.numbers import Numbers, inputs
 
 
+class NoMeaning(SystemExit):
+    """A document that is not made, since a sentence has no meaning with this config."""
+
+
 def captions(path: str, config: dict) -> dict[str, dict]:
-    """Return title, alternative text and text of each figure; {keys} are those of the config."""
+    """Return what captions.yaml has of each figure; {keys} in its text are those of the config."""
     texts = {}
     for name, about in read_yaml(path).items():
         try:
@@ -22,7 +26,7 @@ def captions(path: str, config: dict) -> dict[str, dict]:
             stop(
                 f"{path}: the caption of {name} names {key.args[0]}, which is no key of the config"
             )
-        texts[name] = {"title": about["title"], "alt": about["alt"], "text": text}
+        texts[name] = about | {"text": text}
     return texts
 
 
@@ -41,16 +45,16 @@ def compiled(source: str, texts: dict[str, str], root: str = ".", **how: Any) ->
         return typst.compile(path, root=root, ignore_system_fonts=True, sys_inputs=texts, **how)
     except typst.TypstError as fault:  # its text has no place; the diagnostic has
         if hit := re.search(r"no meaning: (\S+): (.*)", fault.diagnostic):
-            stop(
+            raise NoMeaning(
                 f"{source} is not made: with {hit[1]} of config/config.yaml as it is, there is no "
                 f"meaning in: {hit[2]}"
-            )
+            ) from None
         stop(f"{source} cannot be compiled\n{fault.diagnostic}")
 
 
 def checked(source: str, texts: dict[str, str], root: str = ".") -> Numbers:
-    """Return the numbers of a document; stop at one that has neither a source nor a reason."""
-    html = compiled(source, texts | {"check": "numbers"}, root, format="html").decode()
+    """Return the page of a document; stop at a number that has neither a source nor a reason."""
+    html = compiled(source, texts | {"web": "yes"}, root, format="html").decode()
     if without := (numbers := Numbers(html)).without:
         stop(
             f"{source}: numbers without a source (paper/format.typ says how to write one)\n"
@@ -63,5 +67,4 @@ if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         source, params = snakemake.input.source, snakemake.params
         texts = texts_of(params.config, snakemake.input.captions)
-        checked(source, texts)
         write(snakemake, {snakemake.output[0]: compiled(source, texts, pdf_standards=["a-2b"])})

@@ -12,7 +12,7 @@ from decimal import Decimal
 from functools import reduce
 from html.parser import HTMLParser
 from operator import getitem
-from typing import Any
+from typing import Any, NamedTuple
 
 WORDS = [
     "no",
@@ -126,8 +126,8 @@ NAMES = re.compile(
     r"|record of \d{4}"
 )
 """Names of equations, figures, pages and years."""
-BLOCKS = {"p", "li", "td", "th", "h2", "h3", "h4", "div", "figcaption", "table", "figure", "body"}
-SKIPPED = {"a", "code", "head", "h2", "h3", "h4", "section"}  # a section has the references
+BLOCKS = {"p", "li", "td", "th", "tr", "h1", "h2", "h3", "h4", "div", "figcaption", "table", "main"}
+SKIPPED = {"a", "code", "head", "h1", "h2", "h3", "h4", "nav", "section"}  # a section: references
 VOID = {"br", "img", "link", "meta"}
 SENTENCE = re.compile(r"(?<!\bal)(?<!\bFig)(?<!\bEqs)(?<!\bEq)(?<!\bp)[.?] ")
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
@@ -135,8 +135,19 @@ VALUE = re.compile(r"([^0-9=]*[=≤<>≥])?[0-9.,°  ]+")
 """An equation that gives a value, such as γ = 0.5; all others are formulas."""
 
 
+class Quote(NamedTuple):
+    """A number of a document, with a source: the sentence that prints it."""
+
+    source: str
+    target: str
+    """Of its link."""
+    place: str
+    """The heading above it."""
+    sentence: str
+
+
 class Numbers(HTMLParser):
-    """The numbers of a document that Typst compiled to HTML with marks (paper/format.typ).
+    """The numbers of a document that Typst compiled to HTML with links (paper/format.typ).
 
     Digits of headings, links, references and code are no results; nor are those of formulas, unless
     they have several, and a zero after a relation.
@@ -144,23 +155,33 @@ class Numbers(HTMLParser):
 
     def __init__(self, html: str) -> None:
         super().__init__()
+        self.html = html
         self.count: Counter[str] = Counter()  # of "number", with a source, and of "typed"
+        self.quotes: list[Quote] = []  # in the order of their links
         self.without: list[tuple[str, str]] = []  # a number, and its sentence
         self.open: list[tuple[str, str]] = []  # tag and class
         self.text, self.free = "", list[tuple[int, str]]()
+        self.links: list[tuple[int, str, str]] = []  # of numbers: place in the text, source, target
+        self.heading, self.row = "", ""
         self.equation = 0  # where it begins in the text
         self.feed(html)
         self.flush()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Begin a block, an equation, or a number with a mark."""
-        if tag in VOID:
-            return
+        """Begin a block, an equation, or a number with its source."""
+        about = {name: content or "" for name, content in attrs}
         if tag in BLOCKS:
             self.flush()
+        if tag in VOID:
+            self.handle_data(about.get("alt", ""))
+            return
         if tag == "math":
             self.equation = len(self.text)
-        self.open.append((tag, dict(attrs).get("class") or ""))
+        if tag == "tr":
+            self.row = ""
+        if about.get("class") == "number":
+            self.links.append((len(self.text), about["title"], about["href"]))
+        self.open.append((tag, about.get("class", "")))
         self.count[self.open[-1][1]] += 1
 
     def handle_endtag(self, tag: str) -> None:
@@ -169,12 +190,16 @@ class Numbers(HTMLParser):
             self.free = [(at, n) for at, n in self.free if at < self.equation or len(n) > 1]
         while self.open and self.open.pop()[0] != tag:
             pass
+        if tag in ("h2", "h3"):
+            self.heading = self.text.strip()
         if tag in BLOCKS:
             self.flush()
+        if tag == "td" and not self.row:
+            self.row = self.ended
 
     def handle_data(self, data: str) -> None:
         """Take text, and note its numbers."""
-        marked = any(kind in ("number", "typed") for _, kind in self.open)
+        marked = any(name in ("number", "typed", "name", "by") for _, name in self.open)
         if not marked and not {tag for tag, _ in self.open} & SKIPPED:
             self.free += [(len(self.text) + m.start(), m.group()) for m in NUMBER.finditer(data)]
         self.text += data.replace("\u00a0", " ")
@@ -186,7 +211,10 @@ class Numbers(HTMLParser):
             is_sign = number == "0" and re.search("[=<>≤≥] ?$", self.text[:at])
             if not is_sign and not any(start <= at < end for start, end in named):
                 self.without.append((number, self.sentence(at)))
-        self.text, self.free = "", []
+        row = f"{self.row}: " if self.row and any(tag == "td" for tag, _ in self.open) else ""
+        for at, source, target in self.links:
+            self.quotes.append(Quote(source, target, self.heading, row + self.sentence(at)))
+        self.ended, self.text, self.free, self.links = self.text.strip(), "", [], []
 
     def sentence(self, at: int) -> str:
         """Return the sentence that has a place of the text."""

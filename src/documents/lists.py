@@ -1,0 +1,292 @@
+"""The lists behind the documents, in Markdown: every number with its source, and every claim.
+
+docs/numbers.md and docs/verdicts.md lead to files of the repository. On the pages of the site, made
+from the same rows, they lead to lines of scripts and to the sentences that print a number.
+"""
+
+import ast
+import csv
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from html import escape
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from replication.numbers import Quote
+from replication.verdicts import counted, decimals
+
+NUMBERS = """# Numbers and their sources
+
+Every result of the run, by its rule, with its estimated error. Then the cells of tables and the
+inputs that article and supplement print. The lines below a result are parts of it.
+"""
+CLAIMS = """# Claims and verdicts
+
+Claims that are not plainly confirmed come first, with their condition and a remark. The verdicts:
+
+- **confirmed**: true; a number agrees within the rounding of its print.
+- **qualified**: true on a condition that is stated and tested.
+- **supported**: true in simulations, where only a measurement could confirm it.
+- **refuted**: none of the three above.
+- **by definition**: it cannot be false.
+- **not tested**: with the reason.
+
+We worked from a transcription of the paper. *Our copy differs* where a sign, letter, bracket,
+radical or number in it contradicts the paper's own premises. There we judge the evident meaning.
+The last list has these places, to be compared with the print. A claim that is confirmed there holds
+in a mended form, as the counts say.
+"""
+TITLES = {"paper": "The paper's claims", "ours": "Claims of our own"}
+ORDER = ["refuted", "qualified", "supported", "not tested", "by definition", "confirmed"]
+HEAD = "| claim | printed | computed | verdict | from |\n|---|---|---|---|---|"
+
+
+class Docs:
+    """Where links lead from the folder docs."""
+
+    numbers, claims = "numbers.md", "verdicts.md"
+
+    def file(self, path: str, line: int = 0) -> str:
+        """Return a link to a file of the repository, without a line: a comment would move it."""
+        return f"[{path}](../{path})"
+
+    def table(self, name: str) -> str:
+        """Return a link to a published table."""
+        return f"[{name}](../tests/reference/{name}.csv)"
+
+    def figure(self, name: str) -> str:
+        """Return a link to what draws a figure."""
+        return self.file(f"figures/{name}.py")
+
+    def verdict(self, verdict: str) -> str:
+        """Return a verdict in bold."""
+        return f"**{verdict}**"
+
+    def quotes(self, anchor: str) -> list[str]:
+        """Return the sentences that print a number: none, since a document is a file."""
+        return []
+
+
+class Site(Docs):
+    """Where links lead from the folder of the site."""
+
+    numbers, claims = "numbers.html", "claims.html"
+
+    def __init__(self, pages: Mapping[str, Iterable[Quote]], figures: Mapping[str, str]) -> None:
+        self.figures = figures  # the page of each
+        self.lines: dict[str, list[str]] = {}
+        for page, quotes in pages.items():
+            for count, quote in enumerate(quotes):
+                words = re.sub(r"([\\`*_\[\]])", r"\\\1", escape(quote.sentence, quote=False))
+                link = f"[{quote.place or 'Abstract'}]({page}#n{count})"
+                self.lines.setdefault(quote.target, []).append(f"{link}: {words}")
+
+    def file(self, path: str, line: int = 0) -> str:
+        """Return a link to the page of a script, at a line."""
+        at = f"#L{line}" if line else ""
+        return f"[{path}{', line ' * bool(line)}{line or ''}](source/{path}.html{at})"
+
+    def table(self, name: str) -> str:
+        """Return a link to a table of the run."""
+        return f"[{name}](tables/{name}.csv)"
+
+    def figure(self, name: str) -> str:
+        """Return a link to a figure in its document."""
+        if name not in self.figures:  # its document is not made
+            return super().figure(name)
+        return f"[figure: {name}]({self.figures[name]}#fig-{name})"
+
+    def verdict(self, verdict: str) -> str:
+        """Return a verdict that the buttons above the claims can tell from others."""
+        return f'<b class="verdict{ORDER.index(verdict)}">{verdict}</b>'
+
+    def quotes(self, anchor: str) -> list[str]:
+        """Return the sentences that print a number, with links to it."""
+        return list(dict.fromkeys(self.lines.get(f"{self.numbers}#{anchor}", [])))
+
+
+class Run(NamedTuple):
+    """What the lists are made from."""
+
+    rules: Mapping[str, Any]
+    """Script, tables and parameters of each (results/rules.json)."""
+    findings: Mapping[str, Mapping[str, Any]]
+    claims: list[dict[str, Any]]
+    captions: Mapping[str, Mapping[str, Any]]
+    config: Mapping[str, Any]
+    quotes: list[Quote]
+
+
+# Numbers ------------------------------------------------------------------------------------------
+
+
+def numbers(run: Run, to: Docs) -> str:
+    """Return the list of numbers."""
+    text = [NUMBERS]
+    for rule, results in run.findings.items():
+        about = run.rules[rule]
+        tables = [to.table(Path(path).stem) for path in [*about["tables"], *about["reads"]]]
+        text += [
+            f"## {rule}\n",
+            f"{to.file(about['script'])} draws these from {', '.join(tables)}. Again: "
+            f"`uv run snakemake --cores 2 --force results/findings/{rule}.json`\n",
+        ]
+        for name, result in results.items():
+            text += _entry(f"{rule}.{name}", name, _shown(result), _from(run, rule, name, to), to)
+            for part, content in result.items():
+                if part not in ("value", "error", "unit", "holds", "condition", "holds_when"):
+                    text += _entry(f"{rule}.{name}.{part}", part, _number(content), "", to, "  ")
+        text.append("")
+    return "\n".join([*text, *_cells(run, to), "", *_inputs(run, to)]) + "\n"
+
+
+def _entry(anchor: str, name: str, value: str, more: str, to: Docs, indent: str = "") -> list[str]:
+    words = name.replace("_", " ")
+    return [
+        f'{indent}- <a id="{anchor}"></a>**{words}**: {value}{more}',
+        *(f"{indent}  - {line}" for line in to.quotes(anchor)),
+    ]
+
+
+def _shown(result: Mapping[str, Any]) -> str:
+    """Return the value of a finding with its error, or whether it holds."""
+    if "value" in result:
+        error = f" ± {result['error']:.2g}" if result["error"] else ""
+        unit = f" {result['unit']}" if result["unit"] else ""
+        return decimals(result["value"], result["error"]) + error + unit
+    words = {True: "holds", False: "does not hold"}
+    if "condition" not in result:
+        return words[result["holds"]]
+    return f"{words[result['holds']]}; {words[result['holds_when']]} if {result['condition']}"
+
+
+def _number(content: Any) -> str:
+    if isinstance(content, list | tuple):
+        return ", ".join(map(_number, content)) or "none"
+    if isinstance(content, float):
+        return f"{content:.6g}"
+    return str(content).replace("|", "&#124;")
+
+
+def _from(run: Run, rule: str, name: str, to: Docs) -> str:
+    """Return where a finding is drawn, and the claims that it judges."""
+    script = run.rules[rule]["script"]
+    place = f". By {to.file(script, line_of(script, name))}" if isinstance(to, Site) else ""
+    judged = [
+        f"[{row['id']}]({to.claims}#{row['id']}) ({row['verdict']})"
+        for row in run.claims
+        if (row["rule"], row["finding"]) == (rule, name)
+    ]
+    return place + (f". Judges {', '.join(judged)}" if judged else "")
+
+
+def line_of(script: str, name: str) -> int:
+    """Return the line where a script names a finding; of a name that it composes, the formula."""
+    tree = ast.parse(Path(script).read_text("utf-8"))
+    places = {-1: 1}  # by how much of the name a line has
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef) and node.name == "findings":
+            places[0] = node.lineno
+        elif isinstance(node, ast.JoinedStr):
+            texts = [part.value if isinstance(part, ast.Constant) else "" for part in node.values]
+            if re.fullmatch("".join(re.escape(text) or ".+" for text in texts), name):
+                places.setdefault(len("".join(texts)), node.lineno)
+        elif isinstance(node, ast.Constant | ast.keyword) and name == getattr(
+            node, "value" if isinstance(node, ast.Constant) else "arg"
+        ):
+            places.setdefault(len(name), node.lineno)
+    return places[max(places)]
+
+
+def _cells(run: Run, to: Docs) -> Iterator[str]:
+    """Return each table that the documents quote, with the quoted cells."""
+    quoted: dict[str, dict[str, tuple[str, str]]] = {}
+    for quote in run.quotes:
+        for source in quote.source.split(" and "):
+            table, _, cell = source.partition(":")
+            if table not in ("config", "claim", "claims") and "." not in table:
+                quoted.setdefault(table, {})
+                if cell:
+                    anchor = re.sub("[^A-Za-z0-9_.:;=-]", "_", source)
+                    quoted[table][anchor] = tuple(cell.split(":", 1))
+    yield "## Tables\n"
+    makers = {Path(path).stem: rule for rule in run.rules.values() for path in rule["tables"]}
+    for table, cells in sorted(quoted.items()):
+        text = Path(f"results/tables/{table}.csv").read_text("utf-8")
+        rows = list(csv.DictReader(text.splitlines()))
+        made = f"{len(rows)} rows of {to.table(table)}, by {to.file(makers[table]['script'])}"
+        yield from _entry(table, table, made, "", to)
+        for anchor, (column, keys) in cells.items():
+            known = dict(key.split("=", 1) for key in keys.split(";"))
+            (row,) = (row for row in rows if known.items() <= row.items())
+            where = ", ".join(f"{key} {value}" for key, value in known.items())
+            number = row[column]
+            yield from _entry(anchor, f"{column}, {where}", number or "none", "", to, "  ")
+
+
+def _inputs(run: Run, to: Docs) -> Iterator[str]:
+    """Return each input that the documents quote, with its comment in the config."""
+    path = "config/config.yaml"
+    lines = Path(path).read_text("utf-8").splitlines()
+    yield "## Inputs\n"
+    sources = {source for quote in run.quotes for source in quote.source.split(" and ")}
+    for source in sorted(source for source in sources if source.startswith("config:")):
+        content, at = run.config, -1
+        for key in source[7:].split("."):
+            content = content[int(key) if isinstance(content, list | tuple) else key]
+            named = re.compile(rf"(^|[\s{{]){key}:")
+            at = next((n for n in range(at + 1, len(lines)) if named.search(lines[n])), at)
+        comment = lines[at].partition(" # ")[2]
+        about = f". {comment}" if comment else ""
+        place = f". {to.file(path, at + 1)}"
+        value = _number(content) if not isinstance(content, dict) else "a section"
+        yield from _entry(source, source[7:], value, about + place, to)
+
+
+# Claims -------------------------------------------------------------------------------------------
+
+
+def claims(run: Run, to: Docs) -> str:
+    """Return the list of claims: the paper's, ours, and the places where our copy differs."""
+    text = [CLAIMS]
+    for part in dict.fromkeys(row["part"] for row in run.claims):
+        rows = [row for row in run.claims if row["part"] == part]
+        text += [f"## {TITLES[part]}\n", f"{counted(rows)}.\n", HEAD]
+        rows.sort(key=lambda row: (ORDER.index(row["verdict"]), not row["differs"]))
+        text += [*(_claim(row, run, to) for row in rows), ""]
+    text.append("## Places where our copy differs\n")
+    return (
+        "\n".join(
+            [
+                *text,
+                *(
+                    f"- {row['where']} (`{row['id']}`), {row['differs']}. {row['remark']}"
+                    for row in run.claims
+                    if row["differs"]
+                ),
+            ]
+        )
+        + "\n"
+    )
+
+
+def _claim(row: dict[str, Any], run: Run, to: Docs) -> str:
+    """Return a claim as a row of a table."""
+    statement = f'<a id="{row["id"]}"></a>`{row["id"]}`, {row["where"]}. {row["statement"]}'
+    if row["verdict"] != "confirmed" or row["differs"]:
+        condition = f"True if {row['condition']}. " if row.get("condition") else ""
+        statement += f"<br>{condition}{row['remark']}"
+    figures = [name for name, one in run.captions.items() if row["id"] in one["claims"]]
+    sources = [to.figure(name) for name in figures]
+    if row["rule"]:
+        finding = f"{row['rule']}.{row['finding']}"
+        sources.insert(0, f"[{finding}]({to.numbers}#{finding})")
+    cells = (
+        statement,
+        f"{row['printed']} {row['unit']}".strip() if row["shown"] else "",
+        row["shown"],
+        to.verdict(row["verdict"]) + (" (our copy differs)" if row["differs"] else ""),
+        ", ".join(sources),
+    )
+    shown = (str(cell).replace("|", "&#124;").replace("\n", " ") for cell in cells)
+    return f"| {' | '.join(shown)} |"

@@ -1,0 +1,88 @@
+"""The site of a run: links lead somewhere, nothing is requested, every number leads to its line."""
+
+import re
+from collections import Counter
+from html.parser import HTMLParser
+from itertools import pairwise
+from urllib.parse import unquote
+
+import pytest
+
+from tests.cases import ROOT
+
+SITE = ROOT / "results/site"
+pytestmark = pytest.mark.skipif(not SITE.is_dir(), reason="needs a finished run: make reproduce")
+
+
+class Page(HTMLParser):
+    """What a crawl needs of a page."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.text = path.read_text("utf-8")
+        self.ids, self.links, self.loaded, self.alts = [], [], [], []
+        self.levels, self.tags, self.nested = [], Counter(), 0
+        self.lang = ""
+        self.feed(self.text)
+
+    def handle_starttag(self, tag, attrs):
+        about = dict(attrs)
+        self.tags[tag] += 1
+        if "id" in about:
+            self.ids.append(about["id"])
+        if tag == "a":
+            self.nested += 1
+            assert self.nested == 1, f"a link in a link: {about}"
+            self.links += [about["href"]] if "href" in about else []
+        elif "src" in about or (tag == "link" and "href" in about):
+            self.loaded.append(about.get("src") or about["href"])
+        if tag == "img":
+            self.alts.append(about.get("alt") or "")
+        if re.fullmatch("h[1-6]", tag):
+            self.levels.append(int(tag[1]))
+        self.lang = about.get("lang", "") if tag == "html" else self.lang
+
+    def handle_endtag(self, tag):
+        self.nested -= tag == "a"
+
+
+@pytest.fixture(scope="module")
+def pages():
+    return {path: Page(path) for path in SITE.rglob("*.html")}
+
+
+def test_each_link_leads_to_a_file_and_an_anchor(pages):
+    broken = set()
+    for path, page in pages.items():
+        for link in page.links + page.loaded:
+            place, _, anchor = link.partition("#")
+            if re.match(r"https?:|data:|mailto:", place):
+                continue
+            target = (path.parent / place).resolve() if place else path
+            ids = pages[target].ids if target in pages else []  # of a notebook: as in its links
+            is_state = target.name == "explorer.html" and "=" in anchor
+            if not target.is_file() or (
+                anchor and not {anchor, unquote(anchor)} & set(ids) and not is_state
+            ):
+                broken.add(f"{path.relative_to(SITE)}: {link}")
+    assert not broken
+
+
+def test_nothing_is_requested(pages):
+    for path, page in pages.items():
+        styles = re.findall(r"(?:url\(|@import)\s*['\"]?([^'\")]+)", page.text)
+        outside = [one for one in page.loaded + styles if re.match(r"(https?:)?//", one)]
+        assert not outside, path
+    assert "//" not in re.sub(r"url\(data:[^)]*\)", "", (SITE / "site.css").read_text("utf-8"))
+
+
+def test_a_page_can_be_read_by_machines(pages):
+    for path, page in pages.items():
+        assert [one for one, n in Counter(page.ids).items() if n > 1] == [], path
+        assert page.lang.startswith("en"), path
+        assert re.search("<title>[^<]+</title>", page.text), path
+        steps = [after - before for before, after in pairwise([0, *page.levels])]
+        assert max(steps) == 1, f"{path}: headings {page.levels}"
+        assert page.levels.count(1) == 1, path
+        assert all(len(alt) > 10 for alt in page.alts), path
+    assert len(pages[SITE / "index.html"].alts) >= 10
