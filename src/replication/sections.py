@@ -13,6 +13,8 @@ from pydantic import (
     model_validator,
 )
 
+from topheavy.ground.shapes import FiniteShape as Shape
+
 Entry = TypeVar("Entry")
 
 
@@ -38,9 +40,6 @@ Duration = Annotated[float, Field(gt=0, le=1000, strict=True)]  # s
 Count = Annotated[int, Field(ge=1, le=10_000, strict=True)]
 Seed = Annotated[int, Field(ge=0, strict=True)]
 Degrees = Annotated[float, Field(ge=1, le=60, strict=True)]  # at least 1: no radians
-Shape = Literal[
-    "one-sine", "one-cosine", "half-sine", "constant", "ricker-symmetric", "ricker-antisymmetric"
-]
 StructureName = Annotated[str, AfterValidator(_structure)]
 Items = Annotated[list[Entry], Field(min_length=1)]
 Pair = Annotated[list[Positive], Field(min_length=2, max_length=2)]

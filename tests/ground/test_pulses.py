@@ -3,13 +3,11 @@
 import math
 import re
 from pathlib import Path
-from typing import get_args
 
 import numpy as np
 import pytest
 
 import topheavy.ground.shapes
-from replication.sections import Shape
 from steps.shared.segments import segments_of
 from topheavy import Pulse
 from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES, PULSE_SHAPES, SHAPES
@@ -178,10 +176,6 @@ def test_lists_are_parts_of_the_one_list():
     finite = (name for name in SHAPES if Pulse(name, 1.0, 1.0).duration < math.inf)
     assert tuple(finite) == FINITE_SHAPES
     assert set(ELEMENTARY) == {name for name in SHAPES if not name.startswith("ricker")}
-
-
-def test_config_takes_the_shapes_that_end_and_no_other():
-    assert set(get_args(Shape)) == set(FINITE_SHAPES)
 
 
 def test_list_of_shapes_needs_no_numerics():
