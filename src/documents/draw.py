@@ -15,26 +15,14 @@ from replication.step import call, tables_of
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         sys.path.insert(0, "figures")
-        captions = (
-            read_yaml(snakemake.input.captions) if hasattr(snakemake.input, "captions") else {}
-        )
+        captions, tables = read_yaml(snakemake.input.captions), tables_of(snakemake.input)
         params = {name: content for name, content in snakemake.params.items() if name != "code"}
         made = {}
-        for script in snakemake.input.scripts:
-            svg = next(
-                each
-                for each in snakemake.output
-                if Path(each).stem == Path(script).stem.removesuffix("_figure")
-            )
-            module = runpy.run_path(script)
-            about = captions.get(
-                Path(script).stem, {"title": module["__doc__"], "alt": module.get("ALT", "")}
-            )
+        for script, svg in zip(snakemake.input.scripts, snakemake.output, strict=True):
+            draw, about = runpy.run_path(script)["draw"], captions[Path(script).stem]
             try:
                 with mpl.rc_context(fname=snakemake.input.style):
-                    figure = call(
-                        module["draw"], snakemake.rule, tables_of(snakemake.input), params
-                    )
+                    figure = call(draw, snakemake.rule, tables, params)
                     made[svg] = picture(figure, about["title"], about["alt"])
             except Exception as error:
                 traceback.print_exc()

@@ -11,7 +11,7 @@ plain solver, which therefore may check the Taylor solver by this, and not itsel
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from audit import ALPHA, AMP, PACE, PHI, RATE, SIDE, Drive
 from steps.shared import plain
@@ -23,15 +23,9 @@ from topheavy.ground.shapes import ELEMENTARY
 
 
 def simulate_linear_exact(
-    structure: Structure,
-    excitation: Excitation | None = None,
-    *,
-    rotation: float = 0.0,
-    velocity: float = 0.0,
-    duration: float | None = None,
-    samples: int | ArrayLike = 1000,
+    structure: Structure, excitation: Excitation | None = None, **options: Any
 ) -> Response:
-    """Return the linearised response in exact form; parameters as of `plain.simulate`.
+    """Return the linearised response in exact form; options as of `plain.simulate`.
 
     Raises
     ------
@@ -45,15 +39,7 @@ def simulate_linear_exact(
             f"shape is {excitation.shape!r}, which has no elementary solution; "
             f"expected one of {', '.join(ELEMENTARY)}"
         )
-    return plain.simulate(
-        structure,
-        excitation,
-        rotation=rotation,
-        velocity=velocity,
-        duration=duration,
-        samples=samples,
-        leap=exact_step,
-    )
+    return plain.simulate(structure, excitation, leap=exact_step, **options)
 
 
 def exact_step(lanes: NDArray[np.float64], x: Any, dx: Any, drive: Drive) -> NDArray[np.float64]:
