@@ -48,6 +48,10 @@ class Question(NamedTuple):
     blocks: list[RockingBlock]
     velocities: NDArray[np.float64]
 
+    def factors(self, record: Record) -> NDArray[np.float64]:
+        """Return the factors that scale a motion to the velocities."""
+        return self.velocities / record.peak_velocity
+
 
 def sets(settings: Settings) -> list[str]:
     """Return the names of the sets of synthetic motions, one for each family and earthquake."""
@@ -151,7 +155,7 @@ def components(motion: Motion, settings: Settings) -> tuple[Record, Record | Non
 
 def overturned(question: Question, record: Record, up: Record | None) -> Outcomes:
     """Return which velocities overturn each structure, shape (structures, velocities)."""
-    factors = question.velocities / record.peak_velocity
+    factors = question.factors(record)
     if up is not None and factors.max() * up.acceleration.min() <= -1.0:
         return np.full((len(question.blocks), factors.size), FREE_FALL, np.int8)
     return overturned_by(question.blocks, record, factors, vertical=up).astype(np.int8)
@@ -159,8 +163,7 @@ def overturned(question: Question, record: Record, up: Record | None) -> Outcome
 
 def rotations(question: Question, record: Record, _: Record | None) -> NDArray[np.float64]:
     """Return the peak of |θ|/α, infinite where a structure overturns, of the same shape."""
-    factors = question.velocities / record.peak_velocity
-    peaks = peak_rotations(question.blocks, record, factors).to_numpy()
+    peaks = peak_rotations(question.blocks, record, question.factors(record)).to_numpy()
     return np.nan_to_num(peaks / question.blocks[0].slenderness, nan=np.inf)
 
 
