@@ -83,12 +83,7 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     The message names the first element that `number` refuses. Masked elements are refused: NumPy
     would drop the mask and keep what is under it.
     """
-    if np.ma.is_masked(values):
-        masked = np.ma.getmaskarray(np.ma.asarray(values))
-        raise ValueError(
-            f"{name} has {masked.sum()} masked elements of {masked.size}; expected numbers: fill "
-            "the gaps before, or leave these elements out"
-        )
+    _refuse_masked(name, values)
     try:
         array = np.asarray(values)
     except ValueError as error:
@@ -97,6 +92,18 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
         for index, value in enumerate(np.asarray(values, dtype=object).ravel()):
             number(f"{name}: element {index}", value)
     return np.array(array, dtype=float)
+
+
+def _refuse_masked(name: str, values: ArrayLike) -> None:
+    if isinstance(values, list | tuple):
+        masked = np.array([value is np.ma.masked for value in values])
+    else:
+        masked = np.ma.getmaskarray(np.ma.asarray(values))
+    if masked.any():
+        raise ValueError(
+            f"{name} has {masked.sum()} masked elements of {masked.size}; expected numbers: fill "
+            "the gaps before, or leave these elements out"
+        )
 
 
 def axis_values(
@@ -196,8 +203,8 @@ def truth(name: str, value: Any) -> bool:
 
 def truths(name: str, values: ArrayLike) -> NDArray[np.bool_]:
     """Return a copy of `values` as an array of True and False, or raise ValueError."""
-    array = np.asanyarray(values)
-    if array.dtype != bool or np.ma.is_masked(array):
+    _refuse_masked(name, values)
+    if (array := np.asarray(values)).dtype != bool:
         raise ValueError(f"{name} is {short_repr(values)}; expected True or False in each place")
     return np.array(array)
 

@@ -200,11 +200,11 @@ def structure(
     ValueError
         For a block, which has no bodies.
     """
-    axes = _axes(axes)
     rotation = checks.within("rotation", rotation, -math.pi / 2.0, math.pi / 2.0)
-    for name, value in (("cap_width", cap_width), ("cap_depth", cap_depth)):
-        if value is not None:
-            checks.positive(name, value, "m")
+    cap_width, cap_depth = (
+        None if value is None else checks.positive(name, value, "m")
+        for name, value in (("cap_width", cap_width), ("cap_depth", cap_depth))
+    )
     width = depth = 0.0
     if isinstance(shown, FixedMassColumn | MonolithicPortal | RockingFrame):
         column = shown.column
@@ -215,6 +215,7 @@ def structure(
         width = cap_width or getattr(shown, "cap_width", 0.0) or usual
         depth = cap_depth or getattr(shown, "cap_depth", 0.0) or 0.3 * column.half_height
     bodies = outlines(shown, rotation, width, depth)
+    axes = _axes(axes)
     for name, corners in bodies.items():
         axes.fill(*corners.T, facecolor="0.9" if "column" in name else "0.6", edgecolor="0.1")
     axes.axhline(0.0, color="0.1", linewidth=1.0, zorder=0)

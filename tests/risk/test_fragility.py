@@ -105,7 +105,7 @@ def test_result_is_labelled(ensemble):
     curves, pairs = ensemble.curves, ensemble.pairs
     names = list(STRUCTURES)
     assert curves.structure.to_numpy().tolist() == names
-    assert curves.sizes == {"structure": 5, "level": 5, "term": 3}
+    assert curves.sizes == {"structure": 5, "level": 5}
     assert pairs.sizes == {"pair": 10, "level": 5}
     np.testing.assert_array_equal(curves.level, LEVELS)
     np.testing.assert_array_equal(curves.overturned, ensemble.outcomes.sum(axis=0))
@@ -221,7 +221,10 @@ def test_root_of_an_intensity_that_grows_with_the_square_is_a_measure(ensemble):
         ([2.0, 4.0], "overturning under all motions at every level: levels are in m/s; begin"),
         ([0.001, 0.002], "no overturning at any level; go higher"),
         ([0.001, 0.4, 4.0], "too few levels, 1, with a probability between 0 and 1; take more"),
-        ([0.35, 0.4, 0.45], "the fitted curve does not pass 1/2 within the levels"),
+        (
+            [0.35, 0.4, 0.45],
+            "the fitted curve rises past 1/2 at 0.535, outside the levels",
+        ),
     ],
 )
 def test_text_says_why_there_is_no_median(levels, reason):

@@ -441,6 +441,7 @@ def _impulse(frame: RockingFrame, distance: float, velocity: ArrayLike, mass: fl
     √r. Its vertical velocity turns from downward to upward, since the pivot changes.
     """
     rate, alpha = checks.numbers("velocity", velocity), frame.slenderness
+    checks.within_reason("velocity", np.abs(rate).max(initial=0.0), "rad/s")
     restitution = frame.block().restitution
     return Reaction(
         mass * (-distance * math.cos(alpha) * (1.0 - restitution) * rate),

@@ -55,10 +55,12 @@ def unit_wave(wave: int, phase: Any) -> tuple[Any, Any]:
 
 def checked_shape(shape: PulseShape) -> PulseShape:
     """Return the name of a pulse shape, or raise ValueError with the nearest one that exists."""
-    if shape not in PULSE_SHAPES:
+    if not isinstance(shape, str) or shape not in PULSE_SHAPES:
         close = difflib.get_close_matches(str(shape), PULSE_SHAPES, n=1, cutoff=0.5)
         hint = f" (did you mean {close[0]!r}?)" if close else ""
-        raise ValueError(f"shape is {shape!r}{hint}; expected one of {', '.join(PULSE_SHAPES)}")
+        raise ValueError(
+            f"shape is {checks.short_repr(shape)}{hint}; expected one of {', '.join(PULSE_SHAPES)}"
+        )
     return shape
 
 

@@ -82,7 +82,9 @@ def read_record(
     0.2
     """
     if not isinstance(path, str | PathLike):
-        raise ValueError(f"path is {checks.short_repr(path)}; expected the path of a file")
+        raise ValueError(f"path is {checks.short_repr(path)}; expected that of a file")
+    if not isinstance(column, str):
+        column = checks.whole("column", column, 1)
     raw, ending = (path := Path(path)).read_bytes(), path.suffix.lower()
     try:
         lines = raw.decode("utf-16" if raw[:2] in UTF_16 else "utf-8-sig").splitlines()

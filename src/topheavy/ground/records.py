@@ -177,12 +177,14 @@ class Record(Excitation):
         Warns
         -----
         UserWarning
-            For a velocity above 5 m/s, and a factor above 1000.
+            For more than 5 g or 5 m/s, and a factor above 1000.
         """
         if (pga is None) == (pgv is None):
             raise ValueError(f"pga is {pga}, pgv is {pgv}; expected one of both")
         if pga is not None:
             wanted, peak = checks.positive("pga", pga, "g"), self.peak_acceleration
+            if wanted > MAX_RECORDED:
+                checks.warn(f"pga is {wanted:.6g} g, and few exceed 5 g: is it in gal or m/s²?")
         else:
             wanted, peak = checks.positive("pgv", pgv, "m/s"), self.peak_velocity
             if wanted > checks.MAX_USUAL_VELOCITY:

@@ -77,11 +77,14 @@ class Capacity:
             )
         object.__setattr__(self, "factors", factors)
         object.__setattr__(self, "overturned", overturned)
+        unit = checks.number("unit_acceleration", self.unit_acceleration)
+        if not math.isnan(unit):
+            unit = checks.not_negative("unit_acceleration", unit)
         checks.set_fields(
             self,
             window=checks.positive("window", checks.fraction("window", self.window)),
             share=checks.positive("share", checks.fraction("share", self.share)),
-            unit_acceleration=checks.number("unit_acceleration", self.unit_acceleration),
+            unit_acceleration=unit,
         )
         self.shares(min(*WINDOWS, self.window))  # refuses a grid that is too coarse
 
@@ -202,6 +205,7 @@ def capacity(
     if factors is not None:
         scales = checks.axis_values("factors", factors)
         return Capacity(scales, outcomes(scales), window, share, peak)
+    scale_vertical = checks.truth("scale_vertical", scale_vertical)
     first = block.uplift_acceleration / peak
     last = MAX_OVER_UPLIFT * first
     if vertical is not None:

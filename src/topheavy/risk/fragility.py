@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -18,7 +19,7 @@ from topheavy.bodies.structures import Structures, named_blocks
 from topheavy.ground.records import Record
 from topheavy.outcomes.search import peaks_and_outcomes
 from topheavy.risk import inputs
-from topheavy.risk.curve import curve, dispersions, fit, medians, points_between
+from topheavy.risk.curve import curve, dispersions, fit, medians, points_between, rises_past
 from topheavy.risk.resampling import Ensemble
 
 Array = NDArray[np.float64]
@@ -37,9 +38,9 @@ class Fragility:
     curves : xarray.Dataset
         Over (structure, level): overturned, the number of motions; probability, with its exact
         interval probability_low, probability_high (Clopper & Pearson 1934); fitted, the curve.
-        Over structure: terms (a, b, c) of the curve Φ(a + b ln s + c ln² s); median_capacity, in
-        the unit of the levels, and dispersion, half of ln(s₈₄/s₁₆), with resampled intervals
-        (dispersion_low, dispersion_high).
+        Over structure: term_a, term_b, term_c of the curve Φ(a + b ln s + c ln² s);
+        median_capacity, in the unit of the levels, and dispersion, half of ln(s₈₄/s₁₆), with
+        resampled intervals (dispersion_low, dispersion_high).
     pairs : xarray.Dataset
         Over (pair, level): less, the probability of the first structure less that of the second,
         with its resampled interval (less_low, less_high); only_first and only_second, the motions
@@ -120,10 +121,16 @@ class Fragility:
             return f"{event} under all motions at every level{is_in}; begin lower"
         if share.max() == 0.0:
             return f"no {event} at any level; go higher"
-        if np.isnan(row.terms[0]):
+        if len(self.outcomes) == 1:
+            return "one motion has none; take more motions"
+        terms = np.array([row[f"term_{name}"] for name in "abc"])
+        if np.isnan(terms).any():
             between = int(points_between(share))
             return f"too few levels, {between}, with a probability between 0 and 1; take more"
-        return "the fitted curve does not pass 1/2 within the levels"
+        median = float(rises_past(0.5, terms))
+        if math.isnan(median):
+            return "the fitted curve does not rise past 1/2"
+        return f"the fitted curve rises past 1/2 at {median:.3g}, outside the levels; add some"
 
 
 def _line(row: xarray.Dataset, name: str, unit: str) -> str:
@@ -283,8 +290,8 @@ def tables(
         "probability_low": (at, low),
         "probability_high": (at, high),
         "fitted": (at, curve(levels, terms[0])),
-        "terms": (("structure", "term"), terms[0]),
     }
+    curves |= {f"term_{name}": (one, term) for name, term in zip("abc", terms[0].T, strict=True)}
     curves |= resampled("median_capacity", one, middles)
     curves |= resampled("dispersion", one, dispersions(terms))
 
@@ -300,7 +307,7 @@ def tables(
     }
     pairs |= resampled("less", at, means[:, first] - means[:, second])
     pairs |= resampled("gain", one, middles[:, second] / middles[:, first] - 1.0)
-    return xarray.Dataset(curves, {"term": list("abc")}), xarray.Dataset(pairs), places
+    return xarray.Dataset(curves), xarray.Dataset(pairs), places
 
 
 def exact_interval(

@@ -88,7 +88,7 @@ def intensities(motions: Sequence[Motion], measure: Measure) -> NDArray[np.float
         since no factor brings such a motion to a level, and a function whose value does not double
         with the motion.
     """
-    if callable(measure):
+    if callable(measure) and not isinstance(measure, type):
         values = [measure(motion) for motion in motions]
         for place, (motion, value) in enumerate(zip(motions, values, strict=True)):
             _check_proportional(f"measure of motions[{place}]", measure, motion, value)
