@@ -40,7 +40,7 @@ CLAIM = {
 
 
 def claims(*rows, captions=None):
-    return lists.claims(lists.Run({}, {}, list(rows), captions or {}, {}, []), lists.Docs())
+    return lists.claims(lists.Run(list(rows), captions or {}), lists.Docs())
 
 
 def test_a_confirmed_claim_is_one_line_with_links():

@@ -102,9 +102,13 @@ def test_numbers_of_readme_are_those_of_the_published_tables():
         f"on {spectra['prevented_over_caused']['value']:.0f} times as much area as it causes it",
         f"it can fall, by up to {100 * fall:.1f} %",
     ]
-    text = " ".join(README.split())
+    text = " ".join(re.sub(r"\[([^\]]+)\]\([^)]*\)", r"\1", README).split())
     assert [sentence for sentence in sentences if sentence not in text] == []
     assert (spectra["minimum_rises_with_mass"]["holds_when"], falls["holds"]) == (True, False)
+    anchors = re.findall(r"docs/numbers.md#([^)]+)", README)
+    known = {f"{rule}.{name}" for rule, results in found.items() for name in results}
+    assert len(anchors) > 10
+    assert not set(anchors) - known
     results = README.partition("**Answer")[2].partition("## Use the library")[0]
     results = re.sub(r"```.*?```|\]\([^)]*\)", "", results, flags=re.DOTALL)
     results = re.sub(r"Python 3.*?:|" + INPUTS, "", results)

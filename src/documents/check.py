@@ -102,11 +102,12 @@ def _parts(content: Any) -> Iterator[Any]:
 
 def rewritten(rows: list[dict[str, Any]]) -> Iterator[str]:
     """Yield each page that another one comes of, from the published tables."""
+    from documents import lists
     from documents.explorer import compute
-    from documents.verdicts import page
 
+    run = lists.Run(rows, read_yaml("figures/captions.yaml"))
     pages = {
-        "verdicts.md": page(rows, read_yaml("figures/captions.yaml"), read("rules")),
+        "verdicts.md": lists.claims(run, lists.Docs()),
         "explorer.html": compute("data/records/el_centro_1940_NS.AT2")["page"],
     }
     for name, text in pages.items():

@@ -108,13 +108,13 @@ class Site(Docs):
 class Run(NamedTuple):
     """What the lists are made from."""
 
-    rules: Mapping[str, Any]
-    """Script, tables and parameters of each (results/rules.json)."""
-    findings: Mapping[str, Mapping[str, Any]]
     claims: list[dict[str, Any]]
     captions: Mapping[str, Mapping[str, Any]]
-    config: Mapping[str, Any]
-    quotes: list[Quote]
+    rules: Mapping[str, Any] = {}
+    """Script, tables and parameters of each (results/rules.json)."""
+    findings: Mapping[str, Mapping[str, Any]] = {}
+    config: Mapping[str, Any] = {}
+    quotes: Iterable[Quote] = ()
 
 
 # Numbers ------------------------------------------------------------------------------------------

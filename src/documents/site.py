@@ -155,10 +155,10 @@ def site(job: Any) -> dict[str, str | bytes]:
     rules, captions = read(job.input.rules), read_yaml(job.input.captions)
     findings = [name for name, about in rules.items() if about["findings"]]
     run = lists.Run(
-        rules,
-        {name: read(f"results/findings/{name}.json") for name in findings},
         read(job.input.claims),
         captions,
+        rules,
+        {name: read(f"results/findings/{name}.json") for name in findings},
         job.params.config,
         [quote for each in quotes.values() for quote in each],
     )
