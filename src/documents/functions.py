@@ -133,7 +133,7 @@ def drawn(doc: pdoc.doc.Doc, style: Path) -> str:
     names = {"th": topheavy, "np": np}
     test = doctest.DocTestParser().get_doctest(doc.docstring, names, doc.fullname, None, None)
     report: list[str] = []
-    with mpl.rc_context(fname=style):
+    with mpl.rc_context({"figure.figsize": (5.0, 3.4)}, style):
         if doctest.DocTestRunner(verbose=False).run(test, out=report.append).failed:
             stop("".join(report))
         if not plt.get_fignums():
@@ -171,7 +171,9 @@ def page(module: pdoc.doc.Module, shown: dict[str, str]) -> str:
     def figure(match: re.Match[str]) -> str:
         content = b64encode(shown[match[1]].encode()).decode()
         alt = re.search("(?s)<desc>(.*?)</desc>", shown[match[1]])[1]
-        return f'<img src="data:image/svg+xml;base64,{content}" alt="{alt}">'
+        return (
+            f'<img src="data:image/svg+xml;base64,{content}" alt="{alt}" style="max-width: 100%">'
+        )
 
     text = re.sub(r"FIGURE-([\w.]+)", figure, text)
     text = text.replace("topheavy API documentation", "Functions of topheavy")
