@@ -5,11 +5,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
-import yaml
 
+from replication.config import read_yaml
+from steps.shared import sweep
 from tests.cases import ROOT
+from topheavy import STANDARD_GRAVITY
 
 # In place of uv, which would download: an empty wheel, and no new lock.
 UV = """#!/bin/sh
@@ -29,7 +32,7 @@ assert pytest.main([]) == 1
 def run(folder, *command):
     """Run a command with the Python of the tests as `python`."""
     env = os.environ | {"PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
-    env |= {"PYTHONPATH": str(ROOT / "src")}
+    env |= {"PYTHONPATH": str(ROOT / "src"), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
     done = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True, timeout=300)
     return done.returncode, done.stdout + done.stderr
 
@@ -73,9 +76,16 @@ def test_a_bad_name_or_folder_is_refused(tmp_path, path, name):
     assert not [*tmp_path.iterdir()]
 
 
-def test_the_study_of_tests_quotes_the_published_gains():
-    config = yaml.safe_load((ROOT / "studies/shake_table/config.yaml").read_text("utf-8"))
+def test_the_study_of_tests_quotes_gains_and_lengths_of_the_article():
+    config = read_yaml(ROOT / "studies/shake_table/config.yaml")
     gains = pd.read_csv(ROOT / "tests/reference/motions_gains.csv")
     gains = gains[(gains.structure == "trilith") & (gains.mass_ratio == config["mass_ratio"])]
     percent = 100 * gains.gain[~gains.model.str.startswith("noise")]
-    assert config["synthetic"] == f"{percent.min():.0f} to {percent.max():.0f}"
+    assert config["synthetic"]["gain"] == f"{percent.min():.0f} to {percent.max():.0f}"
+    settings, lengths = read_yaml(ROOT / "config/config.yaml")["motions"], []
+    for name in sweep.sets(settings):  # of a few motions, since the text says whole hundredths
+        records = [motion.record() for motion in sweep.models(settings)[name][:40]]
+        length = np.median([each.peak_velocity / each.peak_acceleration for each in records])
+        lengths.append(length / STANDARD_GRAVITY)
+    quoted = [float(number) for number in config["synthetic"]["length"].split(" to ")]
+    assert quoted == pytest.approx([min(lengths), max(lengths)], rel=0.15)
