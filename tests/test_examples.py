@@ -31,6 +31,19 @@ def test_public_name_has_an_example(name):
     assert ">>> " in inspect.getdoc(getattr(th, name))
 
 
+@pytest.mark.parametrize(
+    "task",
+    [
+        *(th.overturning_spectrum, th.fragility, th.capacity, th.contact_forces),
+        th.peak_rotations,
+    ],
+)
+def test_task_of_an_engineer_takes_at_most_ten_lines(task):
+    lines = [line for line in inspect.getdoc(task).splitlines() if line.startswith((">>>", "..."))]
+    assert len(lines) <= 10
+    assert "plot" in lines[-1]
+
+
 @pytest.mark.parametrize("package", [th, th.plot, th.proven])
 def test_names_are_one_list(package):
     assert dir(package) == sorted(package.__all__)

@@ -321,12 +321,16 @@ def contact_forces(
 
     Examples
     --------
-    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> pulse = th.Pulse("one-sine", 0.3, period=0.8)
-    >>> response = th.simulate(frame, pulse)
-    >>> forces = th.contact_forces(frame, th.Cap(span=5.0, half_depth=0.4), response, pulse)
-    >>> round(float(forces.required_friction.max()), 3), bool(forces.vertical.min() > 0.0)
-    (0.214, True)
+    >>> column = th.Column.of_dimensions(width=1.6, height=9.6)  # m
+    >>> frame, cap = th.RockingFrame(column, mass_ratio=2.0), th.Cap(span=8.0, half_depth=0.6)
+    >>> record = th.read_record("data/records/el_centro_1940_NS.AT2").scaled(2.0)
+    >>> response = th.simulate(frame, record)
+    >>> forces = th.contact_forces(frame, cap, response, record)
+    >>> forces.required_friction.max("time").to_series().round(3).to_dict()
+    {'base_left': 0.204, 'base_right': 0.212, 'top_left': 0.232, 'top_right': 0.242}
+    >>> forces.vertical.min("time").to_series().round(3).to_dict()
+    {'base_left': 0.385, 'base_right': 0.378, 'top_left': 0.227, 'top_right': 0.223}
+    >>> lines = forces.required_friction.plot(hue="contact")
     """
     _check_contacts(structure, cap)
     if not isinstance(response, Response):
@@ -356,14 +360,18 @@ def contact_forces(
     ended = ~(np.abs(again.rotation) < math.pi / 2)  # or NaN: it lies flat
     forces = forces_at(structure, cap, np.where(ended, 0.0, again.rotation), again.velocity, ground)
     columns = {
-        "horizontal": [contact.horizontal for contact in forces.contacts],
-        "vertical": [contact.vertical for contact in forces.contacts],
-        "required_friction": [contact.friction_demand for contact in forces.contacts],
+        "horizontal": ([one.horizontal for one in forces.contacts], "horizontal force over weight"),
+        "vertical": ([one.vertical for one in forces.contacts], "vertical force over weight"),
+        "required_friction": (
+            [one.friction_demand for one in forces.contacts],
+            "required coefficient of friction",
+        ),
     }
+    at = ("contact", "time")
     return xarray.Dataset(
         {
-            name: (("contact", "time"), np.where(ended, np.nan, values), {"units": "1"})
-            for name, values in columns.items()
+            name: (at, np.where(ended, np.nan, values), {"units": "1", "long_name": long_name})
+            for name, (values, long_name) in columns.items()
         },
         {"contact": [*CONTACTS], "time": ("time", time, {"units": "s"})},
         {"over": "weight (2 m_c + m_b) g"},

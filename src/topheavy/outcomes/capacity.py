@@ -191,10 +191,11 @@ def capacity(
     >>> pier = th.Column.of_dimensions(width=1.6, height=9.6)  # m
     >>> bent = th.RockingFrame.of_masses(pier, cap_mass=400, column_mass=60, columns=3)  # t
     >>> record = th.read_record("data/records/el_centro_1940_NS.AT2")
-    >>> for structure in (pier, bent):
-    ...     print(round(th.capacity(structure, record).factor, 1))
-    2.9
-    4.0
+    >>> axes = th.plot.capacity(th.capacity(bent, record), label="bent")
+    >>> result = th.capacity(pier, record)
+    >>> round(result.factor, 2), [round(end, 2) for end in result.range]
+    (2.92, [2.88, 3.9])
+    >>> axes = th.plot.capacity(result, label="pier", axes=axes)
     """
     block, motion = as_block(structure), checked_excitation(record, ends=True)
 
