@@ -88,7 +88,7 @@ def finished(tree):
         if line.count("\t") > 3 and not line.startswith("output_file"):
             path = tree / line.partition("\t")[0]
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.touch()
+            path.touch() if path.suffix else path.mkdir(exist_ok=True)
     (tree / ".snakemake" / "metadata").mkdir(parents=True, exist_ok=True)
     code, words = snakemake(tree, "--touch", "--forceall")
     assert code == 0, words
