@@ -3,13 +3,18 @@
 import subprocess
 import sys
 from functools import cache
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import topheavy as th
 from documents import check
+from replication.config import read_config
+from replication.sections import Paper
+from replication.step import DIGITS
 from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact as closed
 from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES
@@ -18,6 +23,7 @@ from topheavy.kernel.grid import outcomes_of
 
 ROOT = Path(__file__).resolve().parents[1]
 RECORDS = ROOT / "data" / "records"
+CONFIG = read_config(str(ROOT / "config/config.yaml"), Paper)
 
 COLUMN = th.Column(0.5, 3.0)
 FRAME = th.RockingFrame(COLUMN, 1.0)
@@ -53,6 +59,12 @@ EVERY = pytest.mark.parametrize(("solve", "block"), solvers(BLOCK, BLOCK.linear(
 ON_LINEAR = pytest.mark.parametrize("solve", NAMES, ids=NAMES.values())
 TWO = [th.simulate, plain.simulate]
 BY_TWO = pytest.mark.parametrize("solve", TWO, ids=["Taylor", "plain"])
+
+
+def as_written(tables):
+    """Return tables as they are read from the files of a rule."""
+    texts = {n: pd.DataFrame(t).to_csv(index=False, float_format=DIGITS) for n, t in tables.items()}
+    return {name: pd.read_csv(StringIO(text)) for name, text in texts.items()}
 
 
 def broken(findings):

@@ -9,12 +9,10 @@ import pandas as pd
 import pytest
 
 import topheavy as th
-from replication.config import read_yaml
 from steps.beyond import engine, gaps, test_plan
 from steps.beyond.rigid_bodies import LOOK, Bodies, motion, overturns, released
-from tests.cases import ROOT
+from tests.cases import CONFIG
 
-CONFIG = read_yaml(ROOT / "config" / "config.yaml")
 TRILITH, PIER = th.Column(0.11, 0.40), th.Column(0.75, 3.50)
 LINTEL, DECK = th.Cap(span=0.80, half_depth=0.11), th.Cap(span=20.0, half_depth=1.0)
 CASES = {

@@ -7,14 +7,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.config import read_yaml
 from steps.beyond import break_even, motions, records
 from steps.shared import filtered_noise, plain, sweep
 from steps.shared.filtered_noise import Soil
-from tests.cases import COLUMN, ROOT
+from tests.cases import COLUMN, CONFIG, broken
 from topheavy import Column, Record, RockingFrame, judge
 
-CONFIG = read_yaml(ROOT / "config" / "config.yaml")
 EVEN = CONFIG["break_even"] | {"reductions": {"highest": 0.2, "step": 0.1}}
 SETTINGS = CONFIG["motions"] | {
     "motions": 4,
@@ -247,7 +245,7 @@ def test_one_row_is_enough_to_refute(table, column, number, false):
     tables[table].loc[1, column] = number
     settings = SETTINGS | {"structures": ["temple", "trilith"]}
     found = motions.findings(*tables.values(), settings, CONFIG["structures"])
-    assert {name for name, one in found.items() if one.get("holds") is False} == false
+    assert broken(found) == false
     assert found["outcomes_that_change"]["value"] == 0.05
     assert found["gain"]["least"] == found["gain"]["most"] == 0.2
 
@@ -293,7 +291,7 @@ def test_one_velocity_or_change_is_enough_to_refute(end, low, false):
         | {"benefit_high": [0.14, 0.1, 0.05, 0.2]}
     )
     found = break_even.findings(ends, benefits, EVEN)
-    assert {name for name, one in found.items() if one.get("holds") is False} == false
+    assert broken(found) == false
     limits = found["benefit_ends"]
     assert (limits["low"], limits["high"]) == (0.04, 0.1)
     names = ("benefit", "remaining", "remaining_of_both", "within")

@@ -2,20 +2,17 @@
 
 import math
 from ast import literal_eval
-from io import StringIO
+from functools import cache
 from types import SimpleNamespace
 
 import pandas as pd
 import pytest
 
-from replication.config import read_config
-from replication.sections import Paper
 from replication.step import call
 from steps import allen, equations, parameters, statements, trilith, verification
-from tests.cases import COLUMN, RECORDS, ROOT, broken
+from tests.cases import COLUMN, CONFIG, RECORDS, as_written, broken
 from topheavy import Column, RockingFrame, judge
 
-CONFIG = read_config(str(ROOT / "config/config.yaml"), Paper)
 STEPS = {
     step.__name__.removeprefix("steps."): step
     for step in (allen, equations, parameters, statements, trilith)
@@ -44,19 +41,9 @@ def params_of(rule):
 
 @pytest.fixture(scope="module")
 def tables():
-    """The tables of each rule as text, made once."""
-    made = {}
-
-    def of(rule):
-        if rule not in made:
-            found = call(STEPS[rule].compute, rule, {}, params_of(rule))
-            made[rule] = {
-                n: pd.DataFrame(t).to_csv(index=False, float_format="%.9g")
-                for n, t in found.items()
-            }
-        return {name: pd.read_csv(StringIO(text)) for name, text in made[rule].items()}
-
-    return of
+    """The tables of each rule, made once."""
+    made = cache(lambda rule: call(STEPS[rule].compute, rule, {}, params_of(rule)))
+    return lambda rule: as_written(made(rule))
 
 
 def findings(rule, tables, **changes):

@@ -1,7 +1,6 @@
 """Spectra, the fixed mass, verified outcomes and forces after uplift, in small cases."""
 
 import math
-from io import StringIO
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,18 +10,15 @@ from PIL import Image
 
 import topheavy as th
 from documents import animation
-from replication.config import read_config
-from replication.sections import Paper
 from replication.step import findings_text
 from steps import proven, spectra, spectra_shard, uplift, vase
 from steps.shared import cycles
 from steps.shared.histories import history
 from steps.shared.spectrum import FRAME, KEYS, line
-from tests.cases import COLUMN, ROOT, SIZES, broken
+from tests.cases import COLUMN, CONFIG, ROOT, SIZES, as_written, broken
 from tests.cases import FRAME as BENT
 from topheavy.forces.frame import base_shear_slope
 
-CONFIG = read_config(str(ROOT / "config/config.yaml"), Paper)
 PULSE = th.Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
 TIGHT = 3e-12
 SPECTRA = CONFIG["spectra"] | {
@@ -53,12 +49,6 @@ UPLIFT = CONFIG["uplift"] | {
     "amplitudes": [1.1, 3.0, 9.0],
     "sample": 1,
 }
-
-
-def as_written(tables):
-    """Return tables as they are read from their files."""
-    texts = {n: pd.DataFrame(t).to_csv(index=False, float_format="%.9g") for n, t in tables.items()}
-    return {name: pd.read_csv(StringIO(text)) for name, text in texts.items()}
 
 
 def unmet(found):
