@@ -204,7 +204,7 @@ rule site:
         style="paper/site/site.css",
         font="paper/site/math.woff",
         pdfs=["paper/report.pdf", "paper/supplement.pdf"],
-        finished=[path for path in made(".html")],
+        finished=made(".html"),
         scripts=["config/config.yaml"]
         + sorted(
             path

@@ -6,7 +6,6 @@ link to its source; one without a source stops the step.
 
 import json
 import re
-import shutil
 from base64 import b64encode
 from hashlib import sha256
 from html import escape
@@ -186,7 +185,6 @@ def site(job: Any) -> dict[str, str | bytes]:
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        shutil.rmtree(snakemake.output.site, ignore_errors=True)
         made = site(snakemake)
         for path in made:
             Path(path).parent.mkdir(parents=True, exist_ok=True)
