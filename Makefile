@@ -55,7 +55,7 @@ study: | $(UV) ## copy studies/bent, as a repository of its own: make study DIR=
 	  { echo "NAME is '$(NAME)'; expected lower case, digits, _, and none of results, dist, wheels, tests, topheavy"; exit 1; }
 	@test -n "$(DIR)" && test ! -e "$(DIR)" || { echo "DIR is '$(DIR)'; expected the path of a new folder"; exit 1; }
 	@mkdir "$(DIR)" && cp LICENSE .gitignore data/records/el_centro_1940_NS.AT2 "$(DIR)"
-	@tar -C studies/bent --exclude results --exclude '.snakemake' --exclude __pycache__ -c . | tar -C "$(DIR)" -x
+	@tar -C studies/bent --exclude results --exclude '.snakemake' --exclude '.venv' --exclude '*cache*' -c . | tar -C "$(DIR)" -x
 	@$(UV) build --quiet --wheel --no-create-gitignore --out-dir "$(DIR)/wheels"
 	@cd "$(DIR)" && sed -i.old 's|"bent"|"$(NAME)"|; s|path = "../.."|path = "$(WHEEL)"|' pyproject.toml && \
 	  sed -i.old 's|../../data/records/||' config.yaml && sed -i.old 's|bent$$|$(NAME)|' README.md CITATION.cff && rm *.old
