@@ -229,6 +229,13 @@ def test_national_format_is_refused_by_its_name_with_a_way_to_read_it(write, net
         read_record(write(head, "x.txt"), time_step=0.01, unit="gal")
 
 
+GAP = """
+trace.data, begin = trace.data.astype("int32"), trace.stats.starttime
+pieces = [trace.slice(endtime=begin + 1), trace.slice(starttime=begin + 2)]
+obspy.Stream(pieces).write("FILE.gap", format="MSEED")
+"""
+
+
 @pytest.mark.parametrize("package", ["gmprocess", "obspy"])
 def test_lines_that_read_a_national_format_run(write, package):
     assert OTHER_READERS in (RECORDS / "README.md").read_text(encoding="utf-8")
@@ -237,7 +244,12 @@ def test_lines_that_read_a_national_format_run(write, package):
     lines = (
         OTHER_READERS.splitlines()[:5] if package == "gmprocess" else OTHER_READERS.splitlines()[5:]
     )
-    code = "\n".join(["from topheavy import Record", *lines, "print(record)"])
-    code = code.replace("FILE", str(write(KNET, "XXX0010101010000.EW")))
-    shown = subprocess.check_output([sys.executable, "-c", code], text=True)
-    assert shown.endswith(": 400 samples, time step 0.01 s, PGA 0.2827 g, PGV 0.3981 m/s\n")
+    lines = ["from topheavy import Record", *lines, "print(record.start > 9e8, record)"]
+    path = str(write(KNET, "XXX0010101010000.EW"))
+    if package == "obspy":
+        lines += [GAP, *(line.replace("FILE", "FILE.gap") for line in lines)]
+    command = [sys.executable, "-c", "\n".join(lines).replace("FILE", path)]
+    run = subprocess.run(command, capture_output=True, text=True, check=False)
+    peaks = "400 samples, time step 0.01 s, PGA 0.2827 g, PGV 0.3981 m/s"
+    assert re.search(rf"True .*: {peaks}\n$", run.stdout)
+    assert ("Trace with masked values found" in run.stderr) == (package == "obspy")
