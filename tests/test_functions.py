@@ -38,7 +38,7 @@ def test_signatures_name_no_module_and_no_alias_of_numpy(text):
 
 def test_a_picture_follows_its_example(text):
     section = text.split('<section id="plot.history">')[1].split("</section>")[0]
-    assert re.search('<img src="data:image/svg.xml;base64,[^"]+" alt="x over y">', section)
+    assert re.search('<img src="data:image/svg.xml;base64,[^"]+" alt="x over y"', section)
 
 
 def test_an_example_that_is_not_true_stops_the_step():

@@ -3,6 +3,7 @@
 import math
 import re
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import pytest
 import topheavy.ground.shapes
 from steps.shared.segments import segments_of
 from topheavy import Pulse
-from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES, PULSE_SHAPES, SHAPES
+from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES, PULSE_SHAPES, SHAPES, PulseShape
 
 OMEGA = 2.5
 PERIOD = 2 * math.pi / OMEGA
@@ -175,6 +176,7 @@ def test_pulse_has_one_frequency(frequency, says):
 def test_lists_are_parts_of_the_one_list():
     finite = (name for name in SHAPES if Pulse(name, 1.0, 1.0).duration < math.inf)
     assert tuple(finite) == FINITE_SHAPES
+    assert {*get_args(PulseShape)} == {*SHAPES}
     assert set(ELEMENTARY) == {name for name in SHAPES if not name.startswith("ricker")}
 
 
