@@ -62,6 +62,10 @@ class Docs:
         """Return a verdict in bold."""
         return f"**{verdict}**"
 
+    def line(self, script: str, name: str, function: str = "findings") -> str:
+        """Return a link to the line of a result: none."""
+        return ""
+
     def quotes(self, anchor: str) -> list[str]:
         """Return the sentences that print a number: none, since a document is a file."""
         return []
@@ -100,6 +104,10 @@ class Site(Docs):
         """Return a verdict that the buttons above the claims can tell from others."""
         return f'<b class="verdict{ORDER.index(verdict)}">{verdict}</b>'
 
+    def line(self, script: str, name: str, function: str = "findings") -> str:
+        """Return a link to the line of a result."""
+        return f". By {self.file(script, line_of(script, name, function))}"
+
     def quotes(self, anchor: str) -> list[str]:
         """Return the sentences that print a number, with links to it."""
         return list(dict.fromkeys(self.lines.get(f"{self.numbers}#{anchor}", [])))
@@ -132,10 +140,12 @@ def numbers(run: Run, to: Docs) -> str:
             f"`uv run snakemake --cores 2 --force results/findings/{rule}.json`\n",
         ]
         for name, result in results.items():
-            text += _entry(f"{rule}.{name}", name, _shown(result), _from(run, rule, name, to), to)
+            place = to.line(about["script"], name)
+            more = place + _judges(run, rule, name, to)
+            text += _entry(f"{rule}.{name}", name, _shown(result), more, to)
             for part, content in result.items():
                 if part not in ("value", "error", "unit", "holds", "condition", "holds_when"):
-                    text += _entry(f"{rule}.{name}.{part}", part, _number(content), "", to, "  ")
+                    text += _entry(f"{rule}.{name}.{part}", part, _number(content), place, to, "  ")
         text.append("")
     return "\n".join([*text, *_cells(run, to), "", *_inputs(run, to)]) + "\n"
 
@@ -168,24 +178,22 @@ def _number(content: Any) -> str:
     return str(content).replace("|", "&#124;")
 
 
-def _from(run: Run, rule: str, name: str, to: Docs) -> str:
-    """Return where a finding is drawn, and the claims that it judges."""
-    script = run.rules[rule]["script"]
-    place = f". By {to.file(script, line_of(script, name))}" if isinstance(to, Site) else ""
+def _judges(run: Run, rule: str, name: str, to: Docs) -> str:
+    """Return the claims that a finding judges."""
     judged = [
         f"[{row['id']}]({to.claims}#{row['id']}) ({row['verdict']})"
         for row in run.claims
         if (row["rule"], row["finding"]) == (rule, name)
     ]
-    return place + (f". Judges {', '.join(judged)}" if judged else "")
+    return f". Judges {', '.join(judged)}" if judged else ""
 
 
-def line_of(script: str, name: str) -> int:
-    """Return the line where a script names a finding; of a name that it composes, the formula."""
+def line_of(script: str, name: str, function: str) -> int:
+    """Return the line where a script names a result, composes its name, or has the function."""
     tree = ast.parse(Path(script).read_text("utf-8"))
     places = {-1: 1}  # by how much of the name a line has
     for node in ast.walk(tree):
-        if isinstance(node, ast.FunctionDef) and node.name == "findings":
+        if isinstance(node, ast.FunctionDef) and node.name == function:
             places[0] = node.lineno
         elif isinstance(node, ast.JoinedStr):
             texts = [part.value if isinstance(part, ast.Constant) else "" for part in node.values]
@@ -214,14 +222,16 @@ def _cells(run: Run, to: Docs) -> Iterator[str]:
     for table, cells in sorted(quoted.items()):
         text = Path(f"results/tables/{table}.csv").read_text("utf-8")
         rows = list(csv.DictReader(text.splitlines()))
-        made = f"{len(rows)} rows of {to.table(table)}, by {to.file(makers[table]['script'])}"
-        yield from _entry(table, table, made, "", to)
+        script = makers[table]["script"]
+        place = to.line(script, table, "compute")
+        made = f"{len(rows)} rows of {to.table(table)}, by {to.file(script)}"
+        yield from _entry(table, table, made, place, to)
         for anchor, (column, keys) in cells.items():
             known = dict(key.split("=", 1) for key in keys.split(";"))
             (row,) = (row for row in rows if known.items() <= row.items())
             where = ", ".join(f"{key} {value}" for key, value in known.items())
             number = row[column]
-            yield from _entry(anchor, f"{column}, {where}", number or "none", "", to, "  ")
+            yield from _entry(anchor, f"{column}, {where}", number or "none", place, to, "  ")
 
 
 def _inputs(run: Run, to: Docs) -> Iterator[str]:

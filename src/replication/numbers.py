@@ -136,13 +136,11 @@ VALUE = re.compile(r"([^0-9=]*[=≤<>≥])?[0-9.,°  ]+")
 
 
 class Quote(NamedTuple):
-    """A number of a document, with a source: the sentence that prints it."""
+    """A number of a document: its source, where its link leads, heading and sentence."""
 
     source: str
     target: str
-    """Of its link."""
     place: str
-    """The heading above it."""
     sentence: str
 
 
