@@ -83,7 +83,7 @@ def test_history_is_consistent_with_itself(solve, block):
     for shape in CLOSED_PULSES if solve is closed else (*CLOSED_PULSES, "ricker-symmetric"):
         for amplitude in (0.3, 0.6, 4.0):
             pulse = th.Pulse(shape, amplitude, 9.0)
-            found = solve(block, pulse, samples=np.linspace(0.0, 2 * pulse.duration, 4001))
+            found = solve(block, pulse, samples=np.linspace(0.0, 2 * pulse.duration, 1001))
             assert found.overturned == (found.outcome == "overturned")
             assert math.isnan(found.peak_rotation) == found.overturned
             assert np.all(np.diff(found.impact_times, prepend=0.0) > 0)
@@ -91,7 +91,7 @@ def test_history_is_consistent_with_itself(solve, block):
             slope = (found.rotation[2:] - found.rotation[:-2]) / (2 * step)
             apart = np.abs(found.time[1:-1, None] - [*found.impact_times, math.inf]).min(axis=1)
             aloft = (apart > 2 * step) & (np.abs(found.rotation[1:-1]) > 1e-3) & np.isfinite(slope)
-            np.testing.assert_allclose(slope[aloft], found.velocity[1:-1][aloft], atol=2e-3)
+            np.testing.assert_allclose(slope[aloft], found.velocity[1:-1][aloft], atol=0.01)
             if not found.overturned:
                 assert np.max(np.abs(found.rotation)) <= found.peak_rotation * (1 + 1e-9)
                 forced = np.count_nonzero(found.impact_times <= pulse.duration)
