@@ -84,6 +84,12 @@ def test_box_that_contains_a_boundary_is_undecided(factor):
     assert certified(COLUMN, PULSE, factor) is None
 
 
+def test_search_that_tries_its_last_step_says_so(monkeypatch):
+    monkeypatch.setattr("topheavy.proven.prover.MAX_POINT_TRIES", 3)
+    with pytest.warns(UserWarning, match="no proof within 3 steps"):
+        assert certified(COLUMN, PULSE, 0.28) is None
+
+
 def test_boundary_is_bracketed_to_twelve_digits_and_boxes_beside_it_are_proven():
     factors = MINIMUM, MINIMUM + 1e-12, (0.2701, 0.2702), (0.28, 0.2801)
     outcomes = [again(certified(COLUMN, PULSE, factor)) for factor in factors]

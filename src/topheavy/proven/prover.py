@@ -8,6 +8,7 @@ motion that can no longer be followed is bounded by walls, which only proves tha
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Iterator
 from copy import copy
 from typing import Any
@@ -32,6 +33,9 @@ NARROW_BOX = 1e-9
 
 MAX_BOX_TRIES, MIN_BOX_STEP = 100, 0.3
 """For a box of factors: number of steps to try, and the shortest one relative to the first try."""
+
+MAX_POINT_TRIES = 5000
+"""Number of steps to try for one factor at each precision. A proof of the run takes at most 100."""
 
 MIN_STEP = 1e-18
 """Shortest step for one factor, in the phase of the pulse."""
@@ -88,7 +92,8 @@ def certified(
     -------
     dict or None
         "outcome" is "survives" or "overturns", as `topheavy.judge` defines them. "impacts" is their
-        number until the outcome is decided, or None if the motion is only bounded.
+        number until the outcome is decided, or None if the motion is only bounded. None, with a
+        warning, also where the search has tried its last step (MAX_POINT_TRIES).
 
     Raises
     ------
@@ -105,6 +110,11 @@ def certified(
         search = Search(problem, bits, max(accuracy, BOX_ACCURACY * width), is_box=width > 0.0)
         if search.run():
             return search.certificate
+    if not width and search.tries == MAX_POINT_TRIES:
+        message = (
+            f"no proof within {MAX_POINT_TRIES} steps ({search.reason or 'all taken'}): undecided"
+        )
+        warnings.warn(message, UserWarning, stacklevel=2)
     return None
 
 
@@ -222,7 +232,8 @@ class Search:
             h = min(h, -1.25 * ends(check.rate)[1] / c[2])
         low, left = ends(check.ground.stop - check.sigma)
         shortest = MIN_BOX_STEP * h if self.is_box else MIN_STEP
-        while h > shortest and not (self.is_box and self.tries == MAX_BOX_TRIES):
+        limit = MAX_BOX_TRIES if self.is_box else MAX_POINT_TRIES
+        while h > shortest and self.tries < limit:
             self.tries += 1
             is_last = low <= h
             length = left * (1.0 + 1e-12) if is_last else h
