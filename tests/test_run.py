@@ -133,7 +133,7 @@ PAGE = "results/explorer.html"
         },
         {"config/config.yaml": ("tiny", TABLE)},
         {"src/topheavy/bodies/structures.py": ("tiny", TABLE)},
-        {"figures/captions.yaml": ("verdicts", "results/verdicts.md")},
+        {"figures/captions.yaml": ("site", "results/verdicts.md")},
         {"paper/report.typ": ("report", "paper/report.pdf")},
         {"paper/references.bib": ("supplement", "paper/supplement.pdf")},
     ],
