@@ -99,7 +99,7 @@ def simulate(
         duration, a tolerance or a number of samples out of range, a structure whose √r is
         negative, or a vertical acceleration of −1 g or less.
     ArithmeticError
-        For a history of more than `MAX_IMPACTS` impacts or a million steps.
+        For a history of more than 100,000 impacts or a million steps.
 
     Notes
     -----
