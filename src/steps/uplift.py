@@ -60,7 +60,7 @@ def compute(settings: dict, column: dict) -> list[dict]:
             {"shape": shape, "frequency_ratio": ratio, "mass_ratio": gamma, "outcome": outcome}
             | {"peak_acceleration": pulse.amplitude, "uplift_acceleration": level}
             | {"shear_after_uplift": level + slope * (pulse.amplitude - level)}
-            | dict(zip(FORCES, forces, strict=True))
+            | {"base_shear": forces[0]}
             | {f"{n}_over_clamped": forces[i] / clamped[i] for i, n in enumerate(FORCES)}
         )
         if outcome != "overturned":
