@@ -12,8 +12,7 @@ import pytest
 
 import topheavy as th
 from documents import check
-from replication.config import read_config
-from replication.sections import Paper
+from replication.config import read_yaml
 from replication.step import DIGITS
 from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact as closed
@@ -23,7 +22,7 @@ from topheavy.kernel.grid import outcomes_of
 
 ROOT = Path(__file__).resolve().parents[1]
 RECORDS = ROOT / "data" / "records"
-CONFIG = read_config(str(ROOT / "config/config.yaml"), Paper)
+CONFIG = read_yaml(ROOT / "config" / "config.yaml")
 
 COLUMN = th.Column(0.5, 3.0)
 FRAME = th.RockingFrame(COLUMN, 1.0)
