@@ -27,6 +27,8 @@ from replication.step import run
 OTHERS = "types of results, constants"
 """The heading of the names that the docstring of the package does not list."""
 
+SMALL = {"figure.figsize": (5.0, 3.4), "path.simplify_threshold": 1.0}  # of a pixel
+
 
 def headings() -> dict[str, list[str]]:
     """Return the public names, a function of a module as `plot.history`, by their headings."""
@@ -133,7 +135,7 @@ def drawn(doc: pdoc.doc.Doc, style: Path) -> str:
     names = {"th": topheavy, "np": np}
     test = doctest.DocTestParser().get_doctest(doc.docstring, names, doc.fullname, None, None)
     report: list[str] = []
-    with mpl.rc_context({"figure.figsize": (5.0, 3.4)}, style):
+    with mpl.rc_context(SMALL, style):
         if doctest.DocTestRunner(verbose=False).run(test, out=report.append).failed:
             stop("".join(report))
         if not plt.get_fignums():
