@@ -209,6 +209,7 @@ Paper = section(
     spectra=section(
         "shards slendernesses shapes mass_ratios frequency_ratios",
         amplitudes=section("resolution", Span),
+        again=section("resolution", every=Count),
         finer=section("resolution", below=Positive),
         collapse=section(slow=Positive, covered=Fraction),
         cycles=section("frequency_ratios highest resolution", numbers=Items[Count], wide=Fraction),

@@ -13,6 +13,8 @@ from replication.step import check, geometric, run, truth
 from steps.shared.plain import NUDGE, check_sample
 from topheavy import Capacity, Column, RockingFrame, overturned_by, read_record
 
+BESIDE = 3  # factors on either side of a change of the outcome
+
 
 def compute(settings, solver, structures, components):
     ratios, sizes = geometric(settings["factors"]), geometric(settings["sizes"])
@@ -47,26 +49,33 @@ def capacities(spec, column, records, tightened):
 
     A capacity is a threshold on a count of outcomes, which one outcome can move far. It is computed
     at the tightened tolerance, again at a tenth of it, and under the record times 1 + NUDGE; unless
-    these are the same, it is not decided, and NaN.
+    these are the same, it is not decided, and NaN. The two repeats leave out the factors above the
+    last window of the first time.
     """
     ratios = (1.0 + spec["step"]) ** np.arange(math.log(spec["highest"]) / math.log1p(spec["step"]))
     for record, gamma in product(records, spec["mass_ratios"]):
         frame, peak = RockingFrame(column, gamma), record.peak_acceleration
         factors = ratios * column.uplift_acceleration / peak
+        first = Capacity(
+            factors,
+            overturned_by(frame, record, factors, tolerance=tightened),
+            share=spec["share"],
+        )
+        ends = [(1.0 + window) * first.over(window) for window in spec["windows"]]
+        check(np.isfinite(ends).all(), f"{record.name}: no capacity: raise capacity.highest")
+        factors = factors[factors <= (1.0 + spec["step"]) * max(ends)]
         repeats = [
             Capacity(factors, outcomes, share=spec["share"])
             for outcomes in (
-                overturned_by(frame, record, factors, tolerance=tightened),
                 overturned_by(frame, record, factors, tolerance=0.1 * tightened),
                 overturned_by(frame, record, factors * (1.0 + NUDGE), tolerance=tightened),
             )
         ]
         for window in spec["windows"]:
-            peaks = [peak * one.over(window) for one in repeats]
-            check(np.isfinite(peaks).all(), f"{record.name}: no capacity: raise capacity.highest")
+            capacities = {one.over(window) for one in (first, *repeats)}
             yield (
                 {"record": record.name, "mass_ratio": gamma, "window": window}
-                | {"capacity": peaks[0] if len({*peaks}) == 1 else math.nan}
+                | {"capacity": peak * first.over(window) if len(capacities) == 1 else math.nan}
             )
 
 
@@ -74,11 +83,20 @@ def overturned(frame, record, factors, tightened):
     """Return 1 for factors that overturn, −1 for those that do not, and 0 where this is not known.
 
     It is not known if a relative change of NUDGE in the record, or a tighter tolerance, changes it.
+    Only factors at most BESIDE steps from a change of the outcome are computed again.
     """
     found = overturned_by(frame, record, factors)
-    others = [overturned_by(frame, record, factors * (1.0 + by)) for by in (-NUDGE, NUDGE)]
-    others.append(overturned_by(frame, record, factors, tolerance=tightened))
-    return np.where(np.all(found == others, axis=0), np.where(found, 1, -1), 0)
+    changes = np.flatnonzero(found[1:] != found[:-1])
+    steps = np.arange(1 - BESIDE, 1 + BESIDE)
+    again = np.unique(np.clip(np.add.outer(changes, steps), 0, found.size - 1))
+    outcomes = np.where(found, 1, -1)
+    if again.size:
+        others = [
+            overturned_by(frame, record, factors[again] * (1.0 + by)) for by in (-NUDGE, NUDGE)
+        ]
+        others.append(overturned_by(frame, record, factors[again], tolerance=tightened))
+        outcomes[again[(others != found[again]).any(axis=0)]] = 0
+    return outcomes
 
 
 def findings(records, records_capacity, settings):

@@ -1,8 +1,10 @@
 """Lines of overturning spectra: all amplitudes at a frequency that overturn a block."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import accumulate
 from typing import Any, NamedTuple
 
+import numpy as np
 import pandas as pd
 
 from steps.shared.cases import column_of, pulse_on
@@ -13,6 +15,7 @@ FRAME, SIZE, RESTITUTION = CHANGES = "frame", "size", "restitution"
 """What a cap beam changes of the column: p and √r, p alone (the equivalent column), √r alone."""
 MODES = "without impact", "with impact"
 KEYS = ["change", "mass_ratio", "slenderness_deg", "shape", "frequency_ratio"]
+SAME = 1e-8  # relative to the end of an interval
 TOGETHER = 400  # lines that are searched in the same calls of the kernel
 
 
@@ -43,19 +46,58 @@ def line(
     return Line(labels, block, pulse)
 
 
-def solve(lines: Sequence[Line], settings: Mapping[str, Any]) -> pd.DataFrame:
-    """Return the intervals of amplitudes, over g tan α, that overturn the block of each line."""
-    amplitudes = settings["amplitudes"]
+def solve(spectra: Sequence[Sequence[Line]], settings: Mapping[str, Any]) -> pd.DataFrame:
+    """Return the intervals of amplitudes, over g tan α, that overturn the block of each line.
+
+    A spectrum has a line for each frequency, of which some are searched again in narrower steps.
+    Where these find other intervals, they replace those of the line and of both beside it.
+    """
+    amplitudes, again = settings["amplitudes"], settings["again"]
     ends = (amplitudes["lowest"], amplitudes["highest"])
     finer = (settings["finer"]["below"], settings["finer"]["resolution"])
-    rows: list[dict[str, Any]] = []
+    lines = [one for spectrum in spectra for one in spectrum]
+    found: list[list[FactorInterval]] = []
     for begin in range(0, len(lines), TOGETHER):
-        some = lines[begin : begin + TOGETHER]
-        intervals = search(some, ends, amplitudes["resolution"], finer)
-        for one, of_line in zip(some, intervals, strict=True):
-            rows += rows_of(one, of_line)
-        print(f"{begin + len(some)} of {len(lines)} lines", flush=True)
+        found += search(lines[begin : begin + TOGETHER], ends, amplitudes["resolution"], finer)
+        print(f"{len(found)} of {len(lines)} lines", flush=True)
+
+    def search_again(places: Sequence[int]) -> list[int]:
+        """Return at which places this finds other intervals, and replace them."""
+        different = []
+        for begin in range(0, len(places), TOGETHER):
+            some = places[begin : begin + TOGETHER]
+            by_place = search([lines[at] for at in some], ends, again["resolution"], finer)
+            for at, intervals in zip(some, by_place, strict=True):
+                if not same(intervals, found[at]):
+                    different.append(at)
+                    found[at] = intervals
+        return different
+
+    ends_in_lines = accumulate(map(len, spectra))
+    places = [range(end - len(one), end) for one, end in zip(spectra, ends_in_lines, strict=True)]
+    sample = [at for some in places for at in some[:: again["every"]]]
+    different, beside = {*search_again(sample)}, set()
+    for some in places:
+        for at in different & {*some}:
+            beside |= {at - 1, at + 1} & {*some}
+    search_again(sorted(beside - {*sample}))
+    print(f"{len(different)} of {len(sample)} lines have other intervals in narrower steps")
+    rows = (
+        row for one, intervals in zip(lines, found, strict=True) for row in rows_of(one, intervals)
+    )
     return pd.DataFrame(rows, columns=[*KEYS, "lower", "upper", "mode"])
+
+
+def same(some: Sequence[FactorInterval], others: Sequence[FactorInterval]) -> bool:
+    """Return whether two searches find the same intervals, but for the width of their brackets."""
+    ends = [
+        [(*one.lower, *(one.upper or ()), one.number_of_impacts) for one in intervals]
+        for intervals in (some, others)
+    ]
+    return len(some) == len(others) and all(
+        len(one) == len(other) and np.allclose(one, other, rtol=SAME, atol=0.0)
+        for one, other in zip(*ends, strict=True)
+    )
 
 
 def search(
