@@ -9,6 +9,7 @@ from documents import check
 from documents.check import REFERENCE
 from documents.compare import compare, departures
 from documents.expect import faults
+from replication.config import read_yaml
 from replication.verdicts import unexpected
 from tests.cases import ROOT, published
 
@@ -71,11 +72,14 @@ def test_table_of_other_parameters_or_sources_is_not_compared(tmp_path):
         assert list(compared.verdict) == [verdict]
 
 
-# No results: names, γ, sizes and pulses.
-INPUTS = (
-    r"Fig\. 1|Eqs?\. \(\d+\)( to \(\d+\))?|1 \+ [23]γ|γ = 0\.5, 2 and 10|6 m × 1 m"
-    r"|\d+ [mp]\b|0\.8 m|pulse of 1\.5 s"
-)
+CONFIG = read_yaml(ROOT / "config/config.yaml")
+TEMPLE = CONFIG["structures"]["temple"]
+INPUTS = [  # names, commands, γ, sizes and pulses: no results
+    "Fig. 1", "Eqs. (23) to (25)", "Eq. (25)", "1 + 2γ", "1 + 3γ", "ω = 5 p",
+    "--cores 2 (2 to 15 minutes)", "Python 3.11 to 3.13", "(2 minutes)", "(6 m, beam as heavy",
+    f"{2 * TEMPLE['half_height']:g} m × {2 * TEMPLE['half_width']:g} m",
+    f"one-cosine pulse of {CONFIG['vase']['period']:g} s",
+]  # fmt: skip
 
 
 def test_numbers_of_readme_are_those_of_the_published_tables():
@@ -109,10 +113,23 @@ def test_numbers_of_readme_are_those_of_the_published_tables():
     known = {f"{rule}.{name}" for rule, results in found.items() for name in results}
     assert len(anchors) > 10
     assert not set(anchors) - known
-    results = README.partition("**Answer")[2].partition("## Use the library")[0]
-    results = re.sub(r"```.*?```|\]\([^)]*\)", "", results, flags=re.DOTALL)
-    results = re.sub(r"Python 3.*?:|" + INPUTS, "", results)
-    assert len(re.findall(r"[\d.]*\d(?: to [\d.]+)?", results)) <= 15
+    results = text.partition("**Answer")[2].partition("## Use the library")[0]
+    for words in [*sentences, *INPUTS]:
+        assert words in results
+        results = results.replace(words, "")
+    assert re.findall(r"\d", results) == []
+
+
+def test_example_of_readme_prints_what_its_comment_says(monkeypatch, capsys):
+    monkeypatch.chdir(ROOT)
+    (code,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    exec(code, {})
+    pattern = r"factor of ([\d.]+) .*; ([\d.]+) to ([\d.]+) over"
+    printed = [
+        f"{float(one):.1f}" for row in re.findall(pattern, capsys.readouterr().out) for one in row
+    ]
+    stated = re.search(r"# (\d.*\))", code)[1]
+    assert printed == re.findall(r"\d+\.\d+", stated)
 
 
 @pytest.mark.parametrize("document", ["README.md", "paper/report.typ"])

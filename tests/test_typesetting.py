@@ -11,12 +11,13 @@ import pandas as pd
 import pytest
 from pypdf import PdfReader
 
-from documents import check
+from documents import check, lists
 from documents.typeset import checked, compiled, texts_of
 from replication.config import read_yaml
 from tests.cases import ROOT, published
 
 DOCUMENTS = {name: f"paper/{name}.typ" for name in ("report", "supplement")}
+CAPTIONS = "figures/captions.yaml"
 CONFIG = read_yaml(str(ROOT / "config/config.yaml"))
 
 
@@ -56,6 +57,14 @@ def typeset(folder, document, config=CONFIG):
     captions = str(ROOT / "figures/captions.yaml")
     texts = texts_of(config, captions)
     return checked(DOCUMENTS[document], texts, str(folder))
+
+
+def test_published_list_of_numbers_is_that_of_the_published_tables(folder):
+    quotes = [quote for document in DOCUMENTS for quote in typeset(folder, document).quotes]
+    claims = json.loads((folder / "results/claims.json").read_text("utf-8"))
+    config, captions = (read_yaml(ROOT / path) for path in ("config/config.yaml", CAPTIONS))
+    run = lists.Run(claims, captions, check.read("rules"), published(), config, quotes)
+    assert lists.numbers(run, lists.Docs()) == (ROOT / "docs/numbers.md").read_text("utf-8")
 
 
 def without(table, column, value):
