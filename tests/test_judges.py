@@ -9,6 +9,7 @@ import pytest
 
 from documents import check
 from replication.sources import checksums
+from replication.verdicts import unexpected
 from tests.cases import ROOT, published
 
 
@@ -86,3 +87,13 @@ def test_certificate_that_proves_nothing_is_refused_by_its_own_program(tree, mon
     monkeypatch.setattr(check, "rewritten", lambda rows: [])
     (line,) = check.faults([])
     assert "line 1 is refused" in line
+
+
+@pytest.mark.parametrize(
+    ("verdict", "differs", "is_named"),
+    [("confirmed", "sign", False), ("confirmed", "", True), ("refuted", "sign", True)],
+)
+def test_claim_is_named_where_its_verdict_or_its_flag_is_another(verdict, differs, is_named):
+    row = {"id": "a", "file": "claims.yaml", "shown": "", "computed": True, "verdict": verdict}
+    row |= {"differs": differs, "expected": "confirmed", "expected_differs": "sign"}
+    assert len(unexpected([row])) == is_named

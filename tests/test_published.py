@@ -61,12 +61,15 @@ def test_run_fails_where_a_table_is_not_as_published(verdict, required, words):
 def test_table_of_other_parameters_or_sources_is_not_compared(tmp_path):
     path = str(tmp_path / "vase.csv")
     pd.read_csv(ROOT / REFERENCE / "vase.csv").to_csv(path, index=False)
+    (other := tmp_path / "other" / "vase.csv").parent.mkdir()
+    other.write_text("structure\nbare\n", "utf-8")
     rule = {"params": {"a": 1}, "sources": {"s": "0"}, "tables": [path]}
     for change, verdict in (
         ({}, "agrees"),
         ({"params": {"a": 2}}, "other parameters"),
         ({"sources": {"s": "1"}}, "other parameters"),
         ({"tables": [str(tmp_path / "new.csv")]}, "not published"),
+        ({"tables": [str(other)]}, "differs"),
     ):
         compared = compare({"vase": rule | change}, {"vase": rule}, BOUNDS)
         assert list(compared.verdict) == [verdict]
