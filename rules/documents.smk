@@ -59,7 +59,7 @@ for part in ["paper", "beyond"]:
             config={
                 name: PAPER[name]
                 for name in (
-                    ["structures", "motions"]
+                    ["structures", *(each for each in BEYOND if each in PAPER)]
                     if part == "beyond"
                     else ["spectra", "allen"]
                 )
