@@ -21,7 +21,7 @@ ABSTRACT = {  # what the abstract computes, and the line of the audit
     "under-several": "README: falls",
     "gains-by-height": "README: gain",
 }
-OTHERS = {"points"}  # of the abstract: not recomputed
+OTHERS = {"remains", "within", "link"}  # of the abstract: not recomputed, and a link
 NOT_RECOMPUTED = {
     "is # to # % lower than Housner's formula says",
     "shares of motions that overturn, read for the gains",

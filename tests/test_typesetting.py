@@ -39,7 +39,22 @@ BLANK = '<svg xmlns="http://www.w3.org/2000/svg" width="500" height="160"></svg>
 
 
 def text_of(pdf):
-    return Counter(word for page in PdfReader(pdf).pages for word in page.extract_text().split())
+    """Count the words of a PDF without those of its headers and page numbers."""
+    pages = [page.extract_text() for page in PdfReader(pdf).pages]
+    words = Counter(word for page in pages for word in page.split())
+    header = [
+        "The",
+        "topheavy",
+        "developers",
+        "[Re]",
+        "Are",
+        "some",
+        "top-heavy",
+        "structures",
+        "more",
+        "stable?",
+    ]
+    return words - Counter(header * len(pages) + [str(page) for page in range(1, len(pages) + 1)])
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)
@@ -110,7 +125,7 @@ def test_a_number_that_is_typed_into_a_sentence_is_named_with_it(folder, tmp_pat
     shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
     path = tmp_path / DOCUMENTS["report"]
     text = path.read_text("utf-8")
-    path.write_text(text.replace("= Limits\n", "= Limits\n\nIt takes 12.3~s. Then it stops.\n"))
+    path.write_text(text.replace("\n= Limits", "\nIt takes 12.3~s. Then it stops.\n\n= Limits"))
     with pytest.raises(SystemExit, match=r"12\.3 in: It takes 12\.3 s\.$"):
         typeset(tmp_path, "report")
 

@@ -266,7 +266,7 @@ def test_grid_that_is_too_coarse_is_refused_with_one_that_is_not(factors):
         ({"overturned": [True]}, r"overturned has shape \(1,\); expected \(2,\)"),
         (
             {"overturned": np.ma.masked_array([True, False], [0, 1])},
-            "overturned is [^;]*; expected T",
+            "overturned has 1 masked elements of 2; expected numbers",
         ),
         ({"window": 0.0}, "window is 0; expected more than zero"),
         ({"window": 1.5}, "window is 1.5; expected a value from 0 to 1"),
