@@ -42,19 +42,10 @@ def text_of(pdf):
     """Count the words of a PDF without those of its headers and page numbers."""
     pages = [page.extract_text() for page in PdfReader(pdf).pages]
     words = Counter(word for page in pages for word in page.split())
-    header = [
-        "The",
-        "topheavy",
-        "developers",
-        "[Re]",
-        "Are",
-        "some",
-        "top-heavy",
-        "structures",
-        "more",
-        "stable?",
-    ]
-    return words - Counter(header * len(pages) + [str(page) for page in range(1, len(pages) + 1)])
+    header = ("The", "topheavy", "developers", "[Re]", "Are", "some", "top-heavy")
+    header += ("structures", "more", "stable?")
+    numbers = map(str, range(1, len(pages) + 1))
+    return words - Counter([*header * len(pages), *numbers])
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)
