@@ -23,6 +23,7 @@ from topheavy.outcomes.search import (
     intervals_of_many,
     intervals_on,
     outcomes_of_factors,
+    steps_across,
     structure_coordinates,
 )
 
@@ -219,11 +220,7 @@ def _nested_grid(
     excitation: Pulse | Record, scale_range: tuple[float, float], floor: float
 ) -> _Grid:
     """Return a range in equal parts not wider than the floor; their number is a power of two."""
-    first, last = checked_range(excitation, scale_range)
-    parts = (last - first) / floor
-    checks.number_of_cells(
-        f"floor is {floor:.6g} of {first:g} to {last:g}", math.ceil(min(parts, 1e18))
-    )
+    first, last, parts = steps_across(excitation, scale_range, "floor", floor)
     return _Grid(first, last, 2 ** max(0, math.ceil(math.log2(parts))) + 1)
 
 

@@ -297,13 +297,21 @@ def checked_range(excitation: Excitation, scale_range: tuple[float, float]) -> t
     return first, last
 
 
+def steps_across(
+    excitation: Excitation, scale_range: tuple[float, float], name: str, width: float
+) -> tuple[float, float, float]:
+    """Return the first and the last factor of a range, and how many steps of a width it has."""
+    first, last = checked_range(excitation, scale_range)
+    steps = (last - first) / width
+    checks.number_of_cells(
+        f"{name} is {width:.6g} of {first:g} to {last:g}", math.ceil(min(steps, 1e18))
+    )
+    return first, last, steps
+
+
 def _grid(excitation: Excitation, scale_range: tuple[float, float], resolution: float) -> Factors:
     """Return the first factors of a search, in equal steps not wider than the resolution."""
-    first, last = checked_range(excitation, scale_range)
-    steps = (last - first) / resolution
-    checks.number_of_cells(
-        f"resolution is {resolution:g} of {first:g} to {last:g}", math.ceil(min(steps, 1e18))
-    )
+    first, last, steps = steps_across(excitation, scale_range, "resolution", resolution)
     return np.linspace(first, last, max(2, math.ceil(steps) + 1))
 
 
