@@ -14,7 +14,6 @@ from topheavy import Column, Pulse, RockingFrame, judge, read_record, simulate
 from topheavy.bodies.structures import SIMPLIFICATIONS, simplified
 
 AGREE = 1e-6  # of α, between solvers
-OF_HISTORY = 1e-5  # of α, after all impacts under a record
 
 
 def models_of(frame):
@@ -47,7 +46,7 @@ def histories(frame, settings, record, tightened):
                 apart = np.abs(other.rotation - response.rotation)[upright].max()
                 apart /= frame.slenderness
                 check(
-                    apart < OF_HISTORY and other.outcome == response.outcome,
+                    apart < AGREE and other.outcome == response.outcome,
                     f"{motion}, {model}: two solvers are {apart:.1g} α apart, or differ in outcome",
                 )
             course[model] = response.rotation / frame.slenderness
