@@ -9,14 +9,13 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-from documents.check import findings
+from documents.check import DOCS, REFERENCE, SUMS, findings
 from replication.config import read_config
 from replication.sections import Paper
 from replication.sources import checksums
 from replication.step import findings_text
 from replication.verdicts import unexpected
 
-REFERENCE, DOCS = Path("tests/reference"), Path("docs")
 CLAIMS = Path("results/claims.json")
 
 PAGES = {
@@ -102,12 +101,8 @@ def main() -> None:
     sums = [
         path for folder in (DOCS, REFERENCE) for path in sorted(folder.rglob("*")) if path.is_file()
     ]
-    lines = [
-        f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p}\n"
-        for p in sums
-        if p.name != "SHA256SUMS"
-    ]
-    (DOCS / "SHA256SUMS").write_text("".join(lines), "utf-8")
+    lines = [f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p}\n" for p in sums if p != SUMS]
+    SUMS.write_text("".join(lines), "utf-8")
     print(f"{len(made)} files are published; read the diff, mend README's numbers, then commit")
 
 
