@@ -1,7 +1,7 @@
 """The paper's derivation by computer algebra, and a test of every equation as it is printed.
 
 mechanics  geometry, balances, energies and impulses of a cap beam on N columns  ─►  θ̈, √r, R̂/R
-printed    the equations in our copy of the paper, and what each follows from  ─►  check_printed
+printed    the equations in our copy of the paper, what each follows from, and whether it does
 consequences, fixed_mass, extensions, reversals  ─►  theorems
 """
 
@@ -11,7 +11,7 @@ import inspect
 from typing import NamedTuple
 
 from derivation import consequences, extensions, fixed_mass, reversals
-from derivation.check_printed import PrintedCheck, check_printed
+from derivation.printed import PrintedCheck, check_printed
 
 __all__ = ["PrintedCheck", "Theorem", "check_printed", "theorems"]
 

@@ -85,36 +85,6 @@ def impacts_do_not_count_the_columns() -> bool:
     )
 
 
-def vertical_acceleration_adds_to_gravity() -> bool:
-    """Vertical ground acceleration replaces g by g + v̈_g, in the frame as in its column.
-
-    So the frame remains equivalent to the column of size R̂.
-    """
-    identities = []
-    for side in SIDES:
-        heavier = {g: g + vertical_acceleration}
-        frame = frame_of_columns(side)
-        column = frame.subs(gamma, 0)
-        level = equation_of_motion(side).rhs
-        ratio = (1 + 2 * gamma) / (1 + 3 * gamma)
-        identities += [
-            is_identically_zero(frame - level.subs(heavier), side),
-            is_identically_zero(column - column_motion(side).subs(RECTANGULAR).subs(heavier), side),
-            is_identically_zero(frame - ratio * column, side),
-        ]
-    return all(identities)
-
-
-def vertical_acceleration_changes_the_uplift() -> bool:
-    """Uplift begins at (g + v̈_g) tan α, for every γ."""
-    identities = []
-    for side in SIDES:
-        (level,) = sp.solve(side.upright(frame_of_columns(side)), ground_acceleration)
-        stated = -side.sign * (g + vertical_acceleration) * sp.tan(alpha)
-        identities.append(is_identically_zero(level - stated, side))
-    return all(identities)
-
-
 def vertical_acceleration_is_a_change_of_gravity_and_push() -> bool:
     """θ̈ = (1 + v̈_g/g) times that over ground with ü_g/(1 + v̈_g/g) and no vertical motion."""
     share = 1 + vertical_acceleration / g
@@ -238,8 +208,6 @@ PROOFS = (
     size_only_slows_time,
     columns_count_only_in_the_mass_ratio,
     impacts_do_not_count_the_columns,
-    vertical_acceleration_adds_to_gravity,
-    vertical_acceleration_changes_the_uplift,
     vertical_acceleration_is_a_change_of_gravity_and_push,
     growing_term_is_a_weighted_mean_of_the_pulse,
     short_pulses_gain_by_the_order_of_their_moment,

@@ -237,34 +237,27 @@ def quadratic_terms(side: Side) -> tuple[sp.Expr, sp.Expr]:
 
 
 @cache
-def kinetic_energy(side: Side, columns: Any = 2, rise: Any = 0) -> sp.Expr:
-    """T of all columns and the cap beam, above ground that moves; `rise` is its upward velocity."""
-    ground = sp.Matrix([ground_velocity, rise])
+def kinetic_energy(side: Side) -> sp.Expr:
+    """T of both columns and the cap beam, over ground that moves to the right."""
+    ground = sp.Matrix([ground_velocity, 0])
     column, cap = (rate(side, point(side)) + ground for point in (centre, cap_contact))
     spin = (I_o - m_c * R**2) * velocity**2
-    return sp.simplify((columns * (m_c * column.dot(column) + spin) + m_b * cap.dot(cap)) / 2)
+    return sp.simplify(m_c * column.dot(column) + spin + m_b * cap.dot(cap) / 2)
 
 
-def potential_energy(side: Side, columns: Any = 2) -> sp.Expr:
-    """V of all columns and the cap beam, from the upright position."""
+def potential_energy(side: Side) -> sp.Expr:
+    """V of both columns and the cap beam, from the upright position."""
     column, cap = ((x(side) - side.upright(x(side)))[1] for x in (centre, cap_contact))
-    return columns * m_c * g * column + m_b * g * cap
-
-
-@cache
-def lagrange_motion(side: Side) -> sp.Expr:
-    """θ̈ of N columns with a cap beam by energies alone, with rectangular columns."""
-    rise = sp.Symbol("w", real=True)
-    kinetic = kinetic_energy(side, N, rise)
-    momentum = sp.diff(kinetic, velocity)
-    change = side.time_derivative(momentum) + sp.diff(momentum, rise) * vertical_acceleration
-    balance = change - sp.diff(kinetic - potential_energy(side, N), side.rotation)
-    return solved(sp.expand(balance).subs(RECTANGULAR), acceleration)
+    return 2 * m_c * g * column + m_b * g * cap
 
 
 def lagrange_equation(side: Side) -> sp.Eq:
     """The frame's equation of motion by Lagrange, with rectangular columns. # Eqs. (19), (22)"""
-    return sp.Eq(acceleration, sp.factor(lagrange_motion(side).subs(OF_TWO)))
+    kinetic = kinetic_energy(side)
+    momentum = side.time_derivative(sp.diff(kinetic, velocity))
+    balance = momentum - sp.diff(kinetic - potential_energy(side), side.rotation)
+    motion = solved(sp.expand(balance).subs(RECTANGULAR_OF_TWO), acceleration)
+    return sp.Eq(acceleration, sp.factor(motion))
 
 
 # The impact at θ = 0 ------------------------------------------------------------------------------
@@ -311,18 +304,3 @@ def tangent_form(expression: sp.Expr) -> sp.Expr:
     x = sp.Symbol("x", positive=True)
     values = {sp.sin(alpha): sp.sqrt(x / (1 + x)), sp.cos(alpha): 1 / sp.sqrt(1 + x)}
     return sp.factor(sp.expand_trig(expression).subs(values))
-
-
-def largest_slenderness() -> sp.Expr:
-    """The α at which √r of the frame is zero: a stockier one does not keep rocking. # Eq. (25)"""
-    return _root(restitution())
-
-
-def energy_slenderness() -> sp.Expr:
-    """The α at which the frame and its column lose the same share of energy, √r being opposite."""
-    return _root(restitution() + column_restitution())
-
-
-def _root(expression: sp.Expr) -> sp.Expr:
-    (root,) = sp.solve(tangent_form(expression), sp.Symbol("x", positive=True))
-    return sp.atan(sp.sqrt(sp.factor(root)))

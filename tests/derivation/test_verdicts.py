@@ -7,9 +7,8 @@ import pytest
 import sympy as sp
 
 from derivation import check_printed, consequences, theorems
-from derivation.check_printed import follows, residuals
 from derivation.notation import NEGATIVE, POSITIVE, alpha, gamma, read
-from derivation.printed import EQUATIONS, IN_TEXT
+from derivation.printed import EQUATIONS, IN_TEXT, follows, residuals
 
 KINDS = {
     "eq9_positive": "sign",
@@ -132,7 +131,6 @@ def test_every_theorem_holds_and_is_stated():
 _SMALL = gamma * sp.sin(alpha) ** 4 / 50
 WRONG = [
     ("size_ratio", lambda ratio: 1 / ratio, consequences.size_grows_to_a_limit),
-    ("frequency_ratio", lambda ratio: ratio**2, consequences.frequency_falls_to_a_limit),
     ("quadratic_terms", lambda t: (t[0], 2 * t[1]), consequences.quadratic_terms_cancel),
     ("potential_energy", lambda v: 1.01 * v, consequences.energy_is_conserved_between_impacts),
     ("restitution", lambda r: r + _SMALL, consequences.restitution_is_below_the_columns),
@@ -141,7 +139,6 @@ WRONG = [
         lambda r: r + _SMALL,
         consequences.frame_rocks_on_below_its_largest_slenderness,
     ),
-    ("largest_slenderness", lambda a: a / 2, consequences.heavier_caps_need_slenderer_columns),
 ]
 
 
