@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba.extending import register_jitable
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import quad
 
 from topheavy import checks
 from topheavy.bodies.response import Response
@@ -118,6 +117,8 @@ def quarter_period(structure: Structure, rotation: float) -> float:
     ValueError
         Unless 0 < θ0 < α.
     """
+    from scipy.integrate import quad
+
     block = structure.block()
     alpha, p = block.slenderness, block.frequency_parameter
     start = checks.finite("rotation", rotation)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import pandas
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.structures import RockingBlock
+
+if TYPE_CHECKING:
+    import pandas
 
 MAX_SAMPLES = 10_000_000
 """Largest number of samples: three arrays of 80 MB."""
@@ -72,6 +74,8 @@ class Response:
         >>> free.to_frame().rotation.round(4).tolist()
         [0.1, 0.095, 0.0793]
         """
+        import pandas
+
         return pandas.DataFrame(
             {"rotation": self.rotation, "velocity": self.velocity},
             pandas.Index(self.time, name="time"),

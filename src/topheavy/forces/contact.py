@@ -21,10 +21,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import reduce
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import xarray
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
@@ -39,6 +38,9 @@ from topheavy.checks import short_repr
 from topheavy.ground.excitation import Excitation, checked_excitation
 from topheavy.ground.records import Record
 from topheavy.outcomes.simulate import simulate
+
+if TYPE_CHECKING:
+    import xarray
 
 Array = NDArray[np.float64]
 
@@ -332,6 +334,8 @@ def contact_forces(
     {'base_left': 0.385, 'base_right': 0.378, 'top_left': 0.227, 'top_right': 0.223}
     >>> lines = forces.required_friction.plot(hue="contact")
     """
+    import xarray
+
     _check_contacts(structure, cap)
     if not isinstance(response, Response):
         raise ValueError(f"response is {short_repr(response)}; expected one that simulate returned")

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import xarray
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
@@ -26,6 +25,9 @@ from topheavy.outcomes.search import (
     steps_across,
     structure_coordinates,
 )
+
+if TYPE_CHECKING:
+    import xarray
 
 FACTORS_PER_CALL, MIN_FACTORS_PER_CALL = 512, 32
 """Factors of all grids in one call of the kernel, and the least of one grid; from the lowest up."""
@@ -259,6 +261,8 @@ def overturning_spectrum(
     {'column': 0.286, 'frame': 0.379}
     >>> axes = th.plot.spectrum(spectrum)
     """
+    import xarray
+
     blocks, axis = named_blocks(structure), checks.axis_values("periods", periods, "s")
     if checks.positive("highest", highest) <= 1.0:
         raise ValueError(f"highest is {highest:.6g}; expected more than 1, the uplift acceleration")

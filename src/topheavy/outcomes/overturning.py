@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import xarray
 from numpy.typing import ArrayLike
 
 from topheavy import checks
@@ -15,6 +16,9 @@ from topheavy.kernel.forcing import pulse_waveform
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
 from topheavy.outcomes.simulate import as_shaking
+
+if TYPE_CHECKING:
+    import xarray
 
 
 def overturning_map(
@@ -56,6 +60,8 @@ def overturning_map(
     array([[False,  True],
            [False, False]])
     """
+    import xarray
+
     block = as_block(structure)
     p = block.frequency_parameter
     unit = "m" if isinstance(motion, Record) else "rad/s"

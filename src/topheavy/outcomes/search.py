@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import xarray
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
@@ -27,6 +26,9 @@ from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.step import TOLERANCE
 from topheavy.kernel.taylor import Oscillator, oscillator
 from topheavy.outcomes.simulate import Shaking, as_shaking, checked_tolerance
+
+if TYPE_CHECKING:
+    import xarray
 
 SURVIVES = -1
 """Label of a factor that the structure survives; the label of another is its number of impacts."""
@@ -129,6 +131,8 @@ def peak_rotations(
     {'pier': 0.0813, 'bent': 0.0305}
     >>> axes = th.plot.rotations(peaks)
     """
+    import xarray
+
     blocks, scales = named_blocks(structure), checks.numbers("factors", factors).ravel()
     peaks, _ = peaks_and_outcomes(
         [*blocks.values()], excitation, factors, tolerance, vertical, scale_vertical
