@@ -73,7 +73,13 @@ def test_what_is_published_is_confirmed(folder):
         ("README.md", "R̂ is at most [1.5]", "R̂ is at most [1.6]", "parameters", "size"),
         ("tests/reference/trilith_numbers.csv", "3.79363632", "3.83157", "trilith", "frame_freq"),
         ("tests/reference/mass_ratio.csv", "\n1,0.866025404", "\n1,0.8747", "parameters", "(23)"),
-        ("README.md", "| trilith of", "| 37 % of the trilith of", "trust", "37 is not known here"),
+        (
+            "README.md",
+            "| The trilith of",
+            "| 37 % of the trilith of",
+            "trust",
+            "37 is not known here",
+        ),
     ],
 )
 def test_a_changed_number_is_named(folder, path, old, new, part, named):
