@@ -11,7 +11,7 @@ import pytest
 
 import topheavy as th
 from tests.cases import COLUMN, FRAME, RECORDS
-from topheavy.forces.frame import frame_forces
+from topheavy.forces import frame_forces
 
 PULSE = th.Pulse("one-sine", 0.5, 2.0)
 SHAKING = th.Record(0.02, 0.3 * np.sin(0.1 * np.arange(200)))

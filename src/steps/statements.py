@@ -19,7 +19,7 @@ from topheavy import (
 from topheavy.bodies.free_rocking import quarter_period
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.bodies.structures import simplified
-from topheavy.forces.contact import forces_at
+from topheavy.forces import forces_at
 from topheavy.kernel.step import TOLERANCE
 
 AGREE = 1e-6  # of α, of √r and of the weight: what two integrations may differ by
@@ -62,7 +62,7 @@ def three_bodies(frame, cap, pulse, duration, samples):
 
     ground, weight = pulse.excitation(times), 2.0 * (1.0 + frame.mass_ratio) * STANDARD_GRAVITY
     closed = forces_at(frame, cap_of(cap), block.rotation, block.velocity, ground)
-    closed = np.stack([np.stack([c.horizontal, c.vertical], -1) for c in closed.contacts], -2)
+    closed = np.stack([closed.horizontal.T, closed.vertical.T], -1)
     gap = np.abs(times[:, None] - block.impact_times).min(axis=1, initial=np.inf)
     flying = both & (gap > 1e-3 / p) & (np.abs(block.rotation) > SMALLEST * alpha)
 

@@ -3,7 +3,7 @@ from .bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from .bodies.free_rocking import Outcome
 from .bodies.response import Response
 from .bodies.structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame, Structure
-from .forces.contact import Cap, ContactForces, Reaction, contact_forces, impact_impulses
+from .forces import Cap, ContactForces, contact_forces, impact_impulses
 from .ground.pulses import Pulse
 from .ground.reading import read_record
 from .ground.records import Record
@@ -29,7 +29,6 @@ __all__ = [
     "MonolithicPortal",
     "Outcome",
     "Pulse",
-    "Reaction",
     "Record",
     "Response",
     "RockingBlock",

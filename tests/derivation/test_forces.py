@@ -37,8 +37,8 @@ from derivation.notation import (
 )
 from topheavy import STANDARD_GRAVITY, Cap, Column, RockingFrame
 from topheavy import impact_impulses as impulses_of
-from topheavy.forces.contact import forces_at as forces_of
-from topheavy.forces.frame import base_shear_slope
+from topheavy.forces import base_shear_slope
+from topheavy.forces import forces_at as forces_of
 
 
 def clockwise(arm, force):
@@ -188,7 +188,7 @@ def frame_of(slenderness, mass_ratio):
 
 
 def components(forces):
-    return np.array([[c.horizontal, c.vertical] for c in forces.contacts]).ravel()
+    return np.stack([forces.horizontal, forces.vertical], axis=-1).ravel()
 
 
 @pytest.mark.parametrize("side", SIDES, ids=lambda side: side.label)

@@ -9,12 +9,12 @@ import topheavy as th
 from tests.cases import COLUMN, RECORDS
 from topheavy import STANDARD_GRAVITY, Cap, RockingFrame
 from topheavy.bodies.kinematics import cap_acceleration
-from topheavy.forces.contact import forces_at
-from topheavy.forces.frame import (
+from topheavy.forces import (
     SECTIONS,
     base_shear_slope,
     centre_height,
     clamped_forces,
+    forces_at,
     frame_forces,
     largest_forces,
 )
@@ -86,7 +86,7 @@ def test_bending_moment_is_that_of_all_below_the_section(ratio, state):
     along, x, z, px, pz = particles(theta, rate, second, ground)
     forces, inner = forces_at(frame, CAP, *state), frame_forces(frame, CAP, *state)
     b, height = COLUMN.half_width, 2.0 * COLUMN.half_height
-    for place, base_force in enumerate((forces.base_left, forces.base_right)):
+    for place in (0, 1):
         for section in (0.0, 1.0):  # Gauss points lie on either side of no other section
             level = section * height
             t, a = -side * b, level
@@ -94,7 +94,7 @@ def test_bending_moment_is_that_of_all_below_the_section(ratio, state):
             at_z = a * math.cos(theta) - t * math.sin(theta)
             below = along < level
             load = (z - at_z) * px - (x - at_x) * pz
-            moment = -at_z * base_force.horizontal + at_x * base_force.vertical
+            moment = -at_z * forces.horizontal[place] + at_x * forces.vertical[place]
             moment -= weight * load[below].sum() / STANDARD_GRAVITY
             ours = inner.bending_moment[place, SECTIONS.index(section)]
             assert ours == pytest.approx(-moment, abs=1e-11)
@@ -130,12 +130,13 @@ def test_largest_forces_are_those_of_arcs_that_move_or_of_all_if_none_does(ratio
     theta[25, 0] = 0.0  # one instant without rotation is not rest
     for arcs, counted in ((slice(None), slice(25, None)), (slice(25), slice(25))):
         whole = frame_forces(frame, CAP, *(each[counted] for each in (theta, rate, ground)))
+        bending = np.moveaxis(whole.bending_moment, 0, -1)
         for row, step in zip(
             largest_forces(frame, CAP, theta[arcs], rate[arcs], ground[arcs]), (1, 2), strict=True
         ):
             assert row.tolist() == [
                 np.nanmax(np.abs(force[:, ::step]), initial=0.0)
-                for force in (whole.base_shear, whole.overturning_moment, whole.bending_moment)
+                for force in (whole.base_shear, whole.overturning_moment, bending)
             ]
 
 

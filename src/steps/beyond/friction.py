@@ -10,7 +10,7 @@ from steps.shared.cases import pulse_on
 from steps.shared.histories import history
 from steps.shared.three_bodies import simulate_three_bodies
 from topheavy import Cap, Column, RockingFrame, impact_impulses, simulate
-from topheavy.forces.contact import forces_at
+from topheavy.forces import forces_at
 
 AGREE = 1e-3  # of tan α: required friction by the closed form and by Newton's and Euler's equations
 
@@ -52,12 +52,11 @@ def required(frame, cap, shaking, settings):
         return None
     arcs = history(frame, shaking, settings["samples"], whole=whole)
     forces = forces_at(frame, cap, arcs.rotation, arcs.velocity, arcs.ground)
-    friction, vertical = forces.friction_demand, [np.nanmin(forces.least_vertical)]
-    largest, coarse = np.nanmax(friction), np.nanmax(friction[:, ::2])
+    friction, vertical = forces.friction_demand, [np.nanmin(forces.vertical)]
+    largest, coarse = np.nanmax(friction), np.nanmax(friction[..., ::2])
     if arcs.impacts:
         impact = impact_impulses(frame, cap, 1.0)
-        bases = impact.base_left.vertical + impact.base_right.vertical
-        vertical.append(impact.least_vertical / bases)
+        vertical.append(impact.vertical.min() / impact.vertical[:2].sum())
     column = frame.column
     return {
         "shape": shaking.shape,
@@ -76,7 +75,8 @@ def compare(frame, cap, row, settings):
     times = np.linspace(0.0, shaking.duration, settings["check_samples"])
     motion = simulate(frame, shaking, samples=times)
     ground = shaking.excitation(times)
-    first = forces_at(frame, cap, motion.rotation, motion.velocity, ground).friction_demand
+    forces = forces_at(frame, cap, motion.rotation, motion.velocity, ground)
+    first = np.fmax.reduce(forces.friction_demand)
     bodies = simulate_three_bodies(
         frame,
         shaking,

@@ -1,4 +1,4 @@
-"""Forces and impulses at the base and column-top contacts of a rocking frame.
+"""Forces of a rocking frame: at its contacts, in its columns, and clamped against uplift.
 
 The paper assumes that nothing slides and that the cap beam stays on both columns (p. 3). This
 module computes the forces that the assumption requires. There are nine unknowns: θ̈ and four forces
@@ -14,13 +14,21 @@ leaves one unknown. The moment balance of the cap beam, which the paper omits, d
 
 The impulses at an impact obey the same equations. Rotations are in rad, signed; the ground
 acceleration is in g. Arrays broadcast.
+
+The loads of a column are the forces at its two contacts, half its width beside its axis, and its
+own weight and inertia. With the transverse and axial force t and n of the ground on the column, and
+the position c = b sgn θ of the contact, the bending moment at the height z along the axis is
+
+    M(z) = c n + t z − ∫₀ᶻ q(y) (z − y) dy + (m_c/2h) (b²/3) θ̈ z,   q = (m_c/2h) a_t,
+
+where a_t is the transverse acceleration on the axis, gravity included, and the last term is the
+rotary inertia. Base shear and moments are positive for a frame at rest under ü_g > 0.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -36,13 +44,17 @@ from topheavy.bodies.structures import (
 )
 from topheavy.checks import short_repr
 from topheavy.ground.excitation import Excitation, checked_excitation
+from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
+from topheavy.ground.shapes import SHAPES, WAVES
 from topheavy.outcomes.simulate import simulate
 
 if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
+Force = tuple[Array, Array]
+"""Horizontal and vertical."""
 
 
 @dataclass(frozen=True)
@@ -78,22 +90,37 @@ class Cap:
         )
 
 
+CONTACTS = ("base_left", "base_right", "top_left", "top_right")
+"""Of the ground on both columns, and of their tops on the cap beam."""
+
+SECTIONS = (0.0, 0.25, 0.5, 0.75, 1.0)
+"""Heights, normalised by 2h, at which the bending moments are computed."""
+
+BESIDE_IMPACT = 1e-8
+"""Time before and after an impact at which the forces are computed, times 1/p̂."""
+
+SAME_MOTION = 1e-6
+"""Largest difference of θ, normalised by α, between a response and its repetition."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Reaction:
-    """The force, or at an impact the impulse, of one contact on the body above it.
+class ContactForces:
+    """The forces, or at an impact the impulses, of four contacts on the bodies above them.
 
     Attributes
     ----------
-    horizontal : ndarray
-        To the right.
-    vertical : ndarray
+    horizontal : ndarray, shape (4, ...)
+        To the right, of the ground on the left and the right column, and of the top of the left and
+        the right column on the cap beam; each of the shape of the motion.
+    vertical : ndarray, shape (4, ...)
         Upward. If it is negative, the contact would have to pull; it opens instead.
 
     Examples
     --------
-    >>> from topheavy.forces.contact import column_forces
-    >>> column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).horizontal.item()
-    0.05
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> impulses = th.impact_impulses(frame, th.Cap(span=5.0, half_depth=0.4), 0.5)
+    >>> impulses.vertical.round(3).tolist()
+    [0.333, 0.479, 0.251, 0.398]
     """
 
     horizontal: Array
@@ -102,7 +129,7 @@ class Reaction:
 
     @property
     def friction_demand(self) -> Array:
-        """|horizontal|/vertical: the required coefficient of friction.
+        """|horizontal|/vertical: the required coefficient of friction of each contact.
 
         Infinite where there is no compression, NaN where the contact carries nothing at all.
         """
@@ -111,49 +138,6 @@ class Reaction:
         np.divide(tangential, self.vertical, out=demand, where=self.vertical > 0.0)
         unloaded = (tangential == 0.0) & (self.vertical == 0.0)
         return np.where(unloaded | np.isnan(self.vertical), np.nan, demand)
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class ContactForces:
-    """The reactions at the four contacts of a rocking frame, each of the shape of the motion.
-
-    Attributes
-    ----------
-    base_left, base_right : Reaction
-        Of the ground on the left and the right column.
-    top_left, top_right : Reaction
-        Of the top of the left and the right column on the cap beam.
-
-    Examples
-    --------
-    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> forces = th.impact_impulses(frame, th.Cap(span=5.0, half_depth=0.4), 0.5)
-    >>> round(forces.top_right.vertical.item(), 3)
-    0.398
-    """
-
-    base_left: Reaction
-    base_right: Reaction
-    top_left: Reaction
-    top_right: Reaction
-    __repr__ = checks.repr_of_fields
-
-    @property
-    def contacts(self) -> tuple[Reaction, Reaction, Reaction, Reaction]:
-        """The four, in the order above."""
-        return self.base_left, self.base_right, self.top_left, self.top_right
-
-    @property
-    def friction_demand(self) -> Array:
-        """The largest required coefficient of friction of the four contacts."""
-        largest: Array = reduce(np.fmax, [contact.friction_demand for contact in self.contacts])
-        return largest
-
-    @property
-    def least_vertical(self) -> Array:
-        """The least vertical reaction of the four; none opens as long as it is positive."""
-        least: Array = reduce(np.minimum, [contact.vertical for contact in self.contacts])
-        return least
 
 
 def forces_at(
@@ -187,13 +171,6 @@ def forces_at(
     ValueError
         For a rotation of π/2 or more, a span that is not more than the columns' width 2b, and a
         frame of more than two columns.
-
-    Examples
-    --------
-    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> forces = forces_at(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0, 0.0)
-    >>> round(forces.base_left.vertical.item(), 3)
-    0.422
     """
     _check_contacts(frame, cap)
     motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
@@ -202,32 +179,6 @@ def forces_at(
     column = _inertia_force(motion, size, p_hat, column_weight)  # Eqs. (10), (11)
     beam = _inertia_force(motion, 2.0 * size, p_hat, beam_weight)  # Eqs. (12), (13)
     return _distributed(frame, cap, motion.side, motion.lean, column, beam)
-
-
-def column_forces(
-    column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
-) -> Reaction:
-    """Return the force of the ground on a solitary rocking column, normalised by its weight m g.
-
-    Parameters, and the side that it turns to from θ = 0, are as in `forces_at`. At rest the
-    force is determinate: the ground's acceleration times the mass, and the weight.
-
-    Raises
-    ------
-    ValueError
-        For a rotation of π/2 or more.
-
-    Examples
-    --------
-    >>> column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).vertical.item()
-    1.0
-    """
-    motion = motion_state(column, rotation, velocity, ground_acceleration)
-    rocking = _inertia_force(motion, column.size, column.frequency_parameter, 1.0)
-    rests = (motion.rotation == 0.0) & (motion.velocity == 0.0) & np.isnan(motion.side)
-    return Reaction(
-        np.where(rests, motion.ground, rocking.horizontal), np.where(rests, 1.0, rocking.vertical)
-    )
 
 
 def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> ContactForces:
@@ -253,8 +204,8 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     --------
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
     >>> impulses = th.impact_impulses(frame, th.Cap(span=5.0, half_depth=0.4), 0.5)
-    >>> round(impulses.base_left.vertical.item(), 3)
-    0.333
+    >>> impulses.friction_demand.round(3).tolist()  # of both bases and both tops
+    [0.159, 0.161, 0.159, 0.162]
     """
     _check_contacts(frame, cap)
     column_weight, beam_weight = weights(frame.mass_ratio)
@@ -277,16 +228,6 @@ def _check_contacts(frame: object, cap: object) -> None:
         )
     checked_two_columns(frame)
     checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
-
-
-CONTACTS = ("base_left", "base_right", "top_left", "top_right")
-"""The names of the contacts, those of the fields of `ContactForces`."""
-
-BESIDE_IMPACT = 1e-8
-"""Time before and after an impact at which the forces are computed, times 1/p̂."""
-
-SAME_MOTION = 1e-6
-"""Largest difference of θ, normalised by α, between a response and its repetition."""
 
 
 def contact_forces(
@@ -364,12 +305,9 @@ def contact_forces(
     ended = ~(np.abs(again.rotation) < math.pi / 2)  # or NaN: it lies flat
     forces = forces_at(structure, cap, np.where(ended, 0.0, again.rotation), again.velocity, ground)
     columns = {
-        "horizontal": ([one.horizontal for one in forces.contacts], "horizontal force over weight"),
-        "vertical": ([one.vertical for one in forces.contacts], "vertical force over weight"),
-        "required_friction": (
-            [one.friction_demand for one in forces.contacts],
-            "required coefficient of friction",
-        ),
+        "horizontal": (forces.horizontal, "horizontal force over weight"),
+        "vertical": (forces.vertical, "vertical force over weight"),
+        "required_friction": (forces.friction_demand, "required coefficient of friction"),
     }
     at = ("contact", "time")
     return xarray.Dataset(
@@ -429,7 +367,7 @@ def motion_state(
     return _State(theta, rate, ground, side, lean, np.sin(lean), np.cos(lean))
 
 
-def _inertia_force(motion: _State, distance: float, frequency: float, weight: float) -> Reaction:
+def _inertia_force(motion: _State, distance: float, frequency: float, weight: float) -> Force:
     """Return the force on a body, for its share of the weight.
 
     Its centre is this distance (m) from the pivot: the column's at R, the cap beam's at 2R. It
@@ -440,13 +378,13 @@ def _inertia_force(motion: _State, distance: float, frequency: float, weight: fl
     acceleration = -(frequency**2) * (s * sin + motion.ground * cos)  # Eq. (23)
     across = distance * acceleration / STANDARD_GRAVITY
     inward = distance * motion.velocity**2 / STANDARD_GRAVITY
-    return Reaction(
+    return (
         weight * (motion.ground + across * cos + inward * s * sin),  # Eq. (6)
         weight * (1.0 + across * s * sin - inward * cos),  # Eq. (9), as meant
     )
 
 
-def _impulse(frame: RockingFrame, distance: float, velocity: ArrayLike, mass: float) -> Reaction:
+def _impulse(frame: RockingFrame, distance: float, velocity: ArrayLike, mass: float) -> Force:
     """Return the impulse (m/s) on a body at an impact, for its share of the mass.
 
     Its centre is this distance (m) along the diagonal. Its horizontal velocity drops by the factor
@@ -455,14 +393,19 @@ def _impulse(frame: RockingFrame, distance: float, velocity: ArrayLike, mass: fl
     rate, alpha = checks.numbers("velocity", velocity), frame.slenderness
     checks.within_reason("velocity", np.abs(rate).max(initial=0.0), "rad/s")
     restitution = frame.block().restitution
-    return Reaction(
+    return (
         mass * (-distance * math.cos(alpha) * (1.0 - restitution) * rate),
         mass * (distance * math.sin(alpha) * (1.0 + restitution) * np.abs(rate)),
     )
 
 
 def _distributed(
-    frame: RockingFrame, cap: Cap, side: Array, lean: Array, column: Reaction, beam: Reaction
+    frame: RockingFrame,
+    cap: Cap,
+    side: Array,
+    lean: Array,
+    column: Force,
+    beam: Force,
 ) -> ContactForces:
     """Distribute the forces on one column and on the cap beam over the four contacts.
 
@@ -470,17 +413,13 @@ def _distributed(
     right one. The corresponding horizontal force follows the diagonals.
     """
     b, d = frame.column.half_width, cap.half_depth
-    shift = (side * b * beam.vertical - d * beam.horizontal) / cap.span
+    shift = (side * b * beam[1] - d * beam[0]) / cap.span
     aside = -side * np.tan(lean) * shift
-    top_left, top_right = (
-        Reaction(beam.horizontal / 2.0 + end * aside, beam.vertical / 2.0 + end * shift)
-        for end in (-1.0, 1.0)
-    )
-    base_left, base_right = (
-        Reaction(top.horizontal + column.horizontal, top.vertical + column.vertical)
-        for top in (top_left, top_right)
-    )
-    return ContactForces(base_left, base_right, top_left, top_right)
+    components = []
+    for of_column, of_beam, moved in zip(column, beam, (aside, shift), strict=True):
+        tops = [of_beam / 2.0 + end * moved for end in (-1.0, 1.0)]
+        components.append(np.array([*(top + of_column for top in tops), *tops]))
+    return ContactForces(*components)
 
 
 def weights(mass_ratio: float) -> tuple[float, float]:
@@ -488,3 +427,124 @@ def weights(mass_ratio: float) -> tuple[float, float]:
     if mass_ratio == math.inf:
         return 0.0, 1.0
     return 0.5 / (1.0 + mass_ratio), mass_ratio / (1.0 + mass_ratio)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FrameForces:
+    """Forces of a rocking frame normalised by its weight, each of the shape of the motion.
+
+    Attributes
+    ----------
+    base_shear : ndarray
+        Horizontal force of the ground on both columns, normalised by the weight.
+    overturning_moment : ndarray
+        Of the ground's reactions about the point of the ground midway between the resting columns,
+        normalised by the weight, m.
+    bending_moment : ndarray, shape (2, ..., sections)
+        In the left and the right column at the heights SECTIONS, normalised by the weight, m.
+    """
+
+    base_shear: Array
+    overturning_moment: Array
+    bending_moment: Array
+    __repr__ = checks.repr_of_fields
+
+
+def frame_forces(
+    frame: RockingFrame,
+    cap: Cap,
+    rotation: ArrayLike,
+    velocity: ArrayLike,
+    ground_acceleration: ArrayLike,
+) -> FrameForces:
+    """Return the forces of a frame whose motion is that of Eq. (23).
+
+    The parameters are those of `forces_at`. At rest, base shear and overturning moment follow
+    from the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
+    """
+    contacts = forces_at(frame, cap, rotation, velocity, ground_acceleration)
+    motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
+    rests, half_height = np.isnan(motion.side), frame.column.half_height
+    corner = motion.side * frame.column.half_width
+    horizontal, vertical = contacts.horizontal[:2], contacts.vertical[:2]
+    shear = np.where(rests, motion.ground, horizontal.sum(axis=0))
+    left, right = (corner + end * cap.span for end in (-0.5, 0.5))
+    moment = -(left * vertical[0] + right * vertical[1])
+    moment = np.where(rests, motion.ground * centre_height(frame, cap), moment)
+
+    sin, cos = np.sin(motion.rotation), np.cos(motion.rotation)
+    push = motion.side * motion.sine + motion.ground * motion.cosine
+    turn = -(frame.frequency_parameter**2) * push / STANDARD_GRAVITY  # Eq. (23)
+    load = weights(frame.mass_ratio)[0] / (2.0 * half_height)
+    steady = motion.ground * cos - sin + corner * motion.velocity**2 / STANDARD_GRAVITY
+    y = 2.0 * half_height * np.array(SECTIONS)
+    rotary = turn * frame.column.half_width**2 / 3.0
+    span_loads = y * (rotary[..., None] - y * (steady[..., None] / 2.0 + y * turn[..., None] / 6.0))
+    base = corner * (horizontal * sin + vertical * cos)
+    slope = horizontal * cos - vertical * sin
+    bending = base[..., None] + slope[..., None] * y + load * span_loads
+    return FrameForces(shear, moment, bending)
+
+
+def largest_forces(
+    frame: RockingFrame, cap: Cap, rotation: Array, velocity: Array, ground_acceleration: Array
+) -> NDArray[np.float64]:
+    """Return the largest absolute forces of `frame_forces` over all arcs of motion.
+
+    The motion has the shape (arcs, samples). Arcs at rest are left out, since the forces of a
+    resting frame are largest at uplift, where the next arc begins; if no arc moves, all count.
+
+    Returns
+    -------
+    ndarray, shape (2, 3)
+        Of all samples, and of every other one: base shear, overturning moment, bending moment.
+    """
+    moves = rotation.any(axis=1)
+    moves = moves if moves.any() else ~moves
+    arcs = (x[moves] for x in (rotation, velocity, ground_acceleration))
+    forces = frame_forces(frame, cap, *arcs)
+    bending = np.abs(forces.bending_moment).max(axis=(0, -1))
+    sizes = np.stack([np.abs(forces.base_shear), np.abs(forces.overturning_moment), bending])
+    sizes = np.nan_to_num(sizes)
+    return np.stack([sizes.max(axis=(1, 2)), sizes[:, :, ::2].max(axis=(1, 2))])
+
+
+def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Pulse | Record) -> Array:
+    """Return the largest forces of the same rigid frame if it is clamped against uplift.
+
+    Its columns are fixed to the ground and pinned to the cap beam: each is a cantilever under its
+    own inertia and half that of the cap beam at its top. Everything moves with the ground.
+
+    Returns
+    -------
+    ndarray, shape (3,)
+        Base shear, overturning moment and bending moment, normalised as in `FrameForces`.
+    """
+    checked_excitation(excitation, ends=True)
+    peak = excitation.peak_acceleration
+    if isinstance(excitation, Pulse):  # where its wave turns or begins
+        phases = np.array([0.0, *WAVES[SHAPES[excitation.shape].wave].turns])
+        waves = excitation.accelerations(phases / excitation.angular_frequency)
+        peak = float(np.abs(waves).max())
+    column, beam = weights(frame.mass_ratio)
+    bending = (beam + column) * frame.column.half_height
+    return np.array([1.0, centre_height(frame, cap), bending]) * peak
+
+
+def base_shear_slope(frame: RockingFrame) -> float:
+    """Return d(V/W)/d(ü_g/g), the growth of the base shear over the weight just after uplift.
+
+    1 − (3/4) cos²α (1 + 2γ)²/((1 + γ)(1 + 3γ)); sin²α for γ → ∞. It is 1 before uplift.
+    """
+    gamma = frame.mass_ratio
+    ratio = 4.0 / 3.0
+    if gamma != math.inf:
+        ratio = (1.0 + 2.0 * gamma) ** 2 / ((1.0 + gamma) * (1.0 + 3.0 * gamma))
+    return 1.0 - 0.75 * math.cos(frame.slenderness) ** 2 * ratio
+
+
+def centre_height(frame: RockingFrame, cap: Cap) -> float:
+    """Return the height of the centre of gravity of the resting frame, m."""
+    column, beam = weights(frame.mass_ratio)
+    h = frame.column.half_height
+    return 2.0 * column * h + beam * (2.0 * h + cap.half_depth)
