@@ -19,7 +19,7 @@ TITLES = {
 
 
 def draw(allen_maps):
-    figure, axes = sheet(DOUBLE, 66, ncols=2, sharey=True)
+    figure, axes = sheet(DOUBLE, 56, ncols=2, sharey=True)
     for axis, model in zip(axes, TITLES, strict=True):
         code = 2 * allen_maps.exact + allen_maps[model]
         cells = allen_maps.assign(code=code)

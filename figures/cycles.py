@@ -63,7 +63,7 @@ def draw(spectra_cycles):
     table = table[table.slenderness_deg == slenderness]
     _, below = farthest(table, [(gammas[0], heavier) for heavier in gammas[1:]])
     colours = dict(zip(gammas, shades(len(gammas)), strict=True))
-    figure, axes = sheet(DOUBLE, 62, ncols=3, sharey=True, width_ratios=(1.35, 1, 1))
+    figure, axes = sheet(DOUBLE, 56, ncols=3, sharey=True, width_ratios=(1.35, 1, 1))
     lines(axes[0], table, colours)
     for axis, ratio in zip(axes[1:], (between, below), strict=True):
         bars(axis, table, colours, ratio)

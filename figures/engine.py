@@ -1,26 +1,17 @@
-"""Outcomes, coefficients of restitution, and frames across their plane in a rigid-body engine."""
+"""Coefficients of restitution, and frames across their plane, in a rigid-body engine."""
 
-import numpy as np
-from palette import OVERTURNS, SURVIVES, greys
+from palette import greys
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, gamma, letter, note, shades, sheet
+from replication.drawing import DOUBLE, GREY, gamma, letter, note, shades, sheet
 
-SHAPES = {"one-sine": "sine", "ricker-symmetric": "Ricker"}
-DOTS = {
-    "survives": {"facecolor": PAPER, "edgecolor": SURVIVES},
-    "overturns": {"facecolor": OVERTURNS, "edgecolor": OVERTURNS},
-}
-RING = {"facecolor": "none", "edgecolor": INK, "linewidth": 1.3}
 STYLES = ("o-", "s--", "^-.", "D:")
 
 
-def draw(engine_outcomes, engine_restitution, engine_across):
-    figure, axes = sheet(DOUBLE, 102, "ab;ac", width_ratios=(1.5, 1), height_ratios=(1.3, 1))
-    titles = ["Outcomes near the minimum", "Coefficient of restitution", "Across the plane"]
-    letter(axes.values(), titles)
-    _outcomes(axes["a"], engine_outcomes)
-    _restitution(axes["b"], engine_restitution)
-    _across(axes["c"], engine_across)
+def draw(engine_restitution, engine_across):
+    figure, axes = sheet(DOUBLE, 48, "ab")
+    letter(axes.values(), ["Coefficient of restitution", "Across the plane"])
+    _restitution(axes["a"], engine_restitution)
+    _across(axes["b"], engine_across)
     return figure
 
 
@@ -44,34 +35,6 @@ def _across(axis, table):
     axis.set(xlabel="Depth over width of the columns (–)", ylim=(0.5, 1.5))
     axis.set_ylabel("Amplitude over the\ncolumn's minimum (–)")
     axis.legend(loc="lower right")
-
-
-def _outcomes(axis, table):
-    rows = list(table.groupby(["contact", "structure", "shape", "frequency_ratio"], sort=False))
-    factors = sorted(table.factor.unique())
-    places = {factor: place for place, factor in enumerate(factors)}
-    for height, (_, part) in enumerate(reversed(rows)):
-        x = part.factor.map(places)
-        for word, look in DOTS.items():
-            chosen = part.engine == (word == "overturns")
-            axis.scatter(x[chosen], np.full(chosen.sum(), height), s=34, linewidth=0.9, **look)
-        apart = part.engine != part.theory
-        axis.scatter(x[apart], np.full(apart.sum(), height), s=80, **RING)
-    names = [
-        f"{contact}, {structure}, {SHAPES[shape]} {ratio:g}"
-        for (contact, structure, shape, ratio), _ in reversed(rows)
-    ]
-    axis.set_yticks(range(len(rows)), names, fontsize=7)
-    axis.set_xticks(range(len(factors)), [f"{factor:g}" for factor in factors])
-    predicted = sum(factor < 1 for factor in factors) - 0.5
-    axis.plot([predicted] * 2, [-0.7, len(rows) - 0.4], color=GREY, linewidth=0.8)
-    axis.set(xlim=(-0.5, len(factors) - 0.3), ylim=(-0.7, len(rows) + 1.1))
-    axis.set_xlabel("Amplitude over the minimum in theory (–)")
-    for x, (word, look) in zip((-0.3, 1.0), DOTS.items(), strict=True):
-        axis.scatter([x], [len(rows) + 0.35], s=34, linewidth=0.9, **look)
-        note(axis, word, (x + 0.15, len(rows) + 0.35))
-    axis.scatter([2.4], [len(rows) + 0.35], s=80, **RING)
-    note(axis, "differs from theory", (2.6, len(rows) + 0.35))
 
 
 def _restitution(axis, table):

@@ -11,7 +11,7 @@ def draw(friction_pulses):
     table = friction_pulses
     alone = table[table.mass_ratio == 0.0]
     bays = [bay for bay in table.bay.unique() if bay > 0.0]
-    figure, axes = sheet(DOUBLE, 62, ncols=len(bays), sharey=True)
+    figure, axes = sheet(DOUBLE, 48, ncols=len(bays), sharey=True)
     for axis, bay in zip(axes, bays, strict=True):
         frames = list(table[table.bay == bay].groupby("mass_ratio"))
         for (mass_ratio, part), colour in zip(frames, shades(len(frames)), strict=True):

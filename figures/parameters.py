@@ -11,8 +11,8 @@ FORMULAS = (  # γ and slenderness of a curve, its formula, and where that is wr
     (np.inf, 33.0, "$\\gamma\\to\\infty$: $\\cos 2\\alpha$", (13, 0.4)),
 )
 RATIOS = {  # column; name, limit, and where both are written
-    "size_ratio": (r"$\hat{R}/R$", r"$\hat{R}/R\to 3/2$", 7),
-    "frequency_ratio": (r"$\hat{p}/p$", r"$\hat{p}/p\to\sqrt{2/3}$", 12),
+    "size_ratio": (r"size $\hat{R}/R$", r"$\hat{R}/R\to 3/2$", 7),
+    "frequency_ratio": (r"frequency parameter $\hat{p}/p$", r"$\hat{p}/p\to\sqrt{2/3}$", 12),
 }
 
 
@@ -30,7 +30,7 @@ def over_mass_ratio(axis, table):
     axis.plot(0, 1, "o", color=INK, markersize=3.5, clip_on=False, zorder=3)
     note(axis, "solitary column", (0, 1), xytext=(9, 0), **ASIDE)
     axis.set(xlim=(0, end), ylim=(0.75, 1.58), xlabel=r"Mass ratio, $\gamma$ (–)")
-    axis.set_ylabel(r"Size $\hat{R}/R$ and frequency parameter $\hat{p}/p$ (–)")
+    axis.set_ylabel("Frame over column (–)")
 
 
 def over_slenderness(axis, table):

@@ -5,7 +5,7 @@ from replication.drawing import INK, SINGLE, gamma, note, shades, sheet
 
 def draw(uplift):
     """Draw the base shear just after uplift (lines), and the largest of every survivor (dots)."""
-    figure, axis = sheet(SINGLE, 60)
+    figure, axis = sheet(SINGLE, 56)
     levels = sorted(uplift.mass_ratio.unique())
     highest = uplift.peak_acceleration.max()
     axis.plot([0.0, highest], [0.0, highest], color=INK, linewidth=0.8, linestyle=(0, (4, 2)))

@@ -6,7 +6,6 @@ read_claims(
 )  # before any job: a misspelt key, a number that is no key
 BEYOND = [
     "motions",
-    "motions_models",
     "break_even",
     "friction",
     "engine",

@@ -215,24 +215,7 @@ def cycles(spectra_cycles):
             yield panel, f"{ink} “{low:.3f}”", place, low - 0.02
 
 
-def engine(engine_outcomes, engine_restitution, engine_across):
-    keys = ["contact", "structure", "shape", "frequency_ratio"]
-    rows = engine_outcomes[keys].drop_duplicates()[::-1].reset_index(drop=True)
-    factors = sorted(engine_outcomes.factor.unique())
-    dots = {False: f"{WHITE} in {SURVIVES}", True: f"{OVERTURNS} in {OVERTURNS}"}
-    for height, row in rows.iterrows():
-        of = engine_outcomes[(engine_outcomes[keys] == row).all(axis=1)]
-        for each in of.itertuples():
-            x = factors.index(each.factor)
-            yield 0, dots[each.engine], x, height
-            if each.engine != each.theory:
-                yield 0, f"none in {INK}", x, height
-        shape = {"one-sine": "sine", "ricker-symmetric": "Ricker"}[row["shape"]]
-        yield 0, f"#000000 “{row.contact}, {row.structure}, {shape} {row.frequency_ratio:g}”"
-    above, least = len(rows) + 0.35, sum(factor < 1 for factor in factors) - 0.5
-    for look, x in ((dots[False], -0.3), (dots[True], 1.0), (f"none in {INK}", 2.4)):
-        yield 0, look, x, above
-    yield 0, f"{GREY} -", [least] * 2, [-0.7, len(rows) - 0.4]
+def engine(engine_restitution, engine_across):
     frames = engine_restitution[engine_restitution.mass_ratio > 0]
     greys = ("#b4b4b4 o-", "#818181 s--", "#4d4d4d ^-.", f"{INK} D:")
     for place, (look, (_, of)) in enumerate(
@@ -240,19 +223,19 @@ def engine(engine_outcomes, engine_restitution, engine_across):
     ):
         ends = (of.engine / of.theory).groupby(of.time_constant).agg(["min", "max"])
         x = ends.index * 1.07 ** (place - 1.5)
-        yield 1, look, x, ends.mean(axis=1)
-        yield 1, f"{look[:7]} segments", [*x, *x], [*ends["min"], *ends["max"]]
-        yield 1, f"#000000 “{of.point_restitution.iloc[0]:.2f}”"
+        yield 0, look, x, ends.mean(axis=1)
+        yield 0, f"{look[:7]} segments", [*x, *x], [*ends["min"], *ends["max"]]
+        yield 0, f"#000000 “{of.point_restitution.iloc[0]:.2f}”"
     square = engine_across.query("structure == 'two in line' and section == 'square'")
     first = square[square.frequency_ratio == engine_across.frequency_ratio[0]]
     first = first.drop_duplicates(["depth_over_width", "mass_ratio", "direction"])
     for (ratio, of), colour in zip(first.groupby("mass_ratio"), (MIDDLE, DARK), strict=True):
         across = of[of.direction > 0]
-        yield 2, f"{colour} - {gamma(ratio)}", across.depth_over_width, across.theory
-        yield 2, f"{colour} o", across.depth_over_width, across.engine
-        yield 2, f"{colour} :", [0, 1], [of[of.direction == 0].theory.iloc[0]] * 2
-        yield 2, f"#000000 “{gamma(ratio)}”"
-    for panel in (1, 2):
+        yield 1, f"{colour} - {gamma(ratio)}", across.depth_over_width, across.theory
+        yield 1, f"{colour} o", across.depth_over_width, across.engine
+        yield 1, f"{colour} :", [0, 1], [of[of.direction == 0].theory.iloc[0]] * 2
+        yield 1, f"#000000 “{gamma(ratio)}”"
+    for panel in (0, 1):
         yield panel, f"{GREY} -", [0, 1], [1, 1]
 
 
@@ -301,35 +284,18 @@ def motions(motions_fragility, motions_gains):
             yield 2, f"#000000 “{height}”"
 
 
-def motions_models(motions, motions_rotations):
-    yield 0, "#000000 “(a) Models, at 0.6 m/s”"
-    for row in motions.itertuples():
-        place = len(motions) - 1 - row.Index
-        if re.search(r"\d", row.model):
-            yield 0, f"#000000 “{row.model}”"
-        for name, colour in (("fixed", FIXED), ("column", LIGHT), ("frame", MIDDLE)):
-            ends = [100 * getattr(row, f"{name}_{end}") for end in ("low", "high")]
-            yield 0, f"{colour} o", 100 * getattr(row, name), place
-            yield 0, f"{colour} segments", ends, [place] * 2
-    for panel, (ratio, colour) in enumerate(SPECTRA_COLOURS.items(), start=1):
-        yield panel, f"#000000 “({'abcd'[panel]}) {gamma(ratio)}”"
-        for model, of in motions_rotations[motions_rotations.mass_ratio == ratio].groupby("model"):
-            dash = "-" if model.startswith("near-fault") else "--"
-            yield panel, f"{colour} {dash}", of.velocity, of.median_peak.clip(upper=2.0)
-
-
 def parameters(mass_ratio, restitution):
     finite = mass_ratio[np.isfinite(mass_ratio.mass_ratio)]
     one = finite[finite.mass_ratio == 1.0].iloc[0]
-    for column, letter, limit in (
-        ("size_ratio", "R", 1.5),
-        ("frequency_ratio", "p", (2 / 3) ** 0.5),
+    for column, name, limit in (
+        ("size_ratio", "size R/R", 1.5),
+        ("frequency_ratio", "frequency parameter p/p", (2 / 3) ** 0.5),
     ):
         yield 0, f"{GREY} :", [0, 1], [limit] * 2
         yield 0, f"{INK} -", finite.mass_ratio, finite[column]
         yield 0, f"{INK} hollow o", 1.0, one[column]
-        yield 0, f"#000000 “{letter}/{letter} = {one[column]:.2f} at γ = 1”", 1.0, one[column]
-        words = "R/R 3/2" if letter == "R" else "p/p2/3"
+        yield 0, f"#000000 “{name} = {one[column]:.2f} at γ = 1”", 1.0, one[column]
+        words = "R/R 3/2" if limit == 1.5 else "p/p2/3"
         yield 0, f"{GREY} “{words}”", finite.mass_ratio.max(), limit
     yield 0, f"{INK} o", 0, 1
     ends = {0.0: math.degrees(math.asin((2 / 3) ** 0.5)), math.inf: 45.0}
@@ -535,7 +501,7 @@ def where(spectra, spectra_areas, spectra_histories):
 
 
 FIGURES = (
-    allen, allen_maps, break_even, cycles, engine, friction, motions, motions_models, parameters,
+    allen, allen_maps, break_even, cycles, engine, friction, motions, parameters,
     spectra, structures, trilith, uplift, vase, where,
 )  # fmt: skip
 

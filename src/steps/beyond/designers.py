@@ -28,8 +28,7 @@ def compute(
         size = frame.equivalent_size / column.size
         gains = motions_gains.gain[motions_gains.mass_ratio == gamma]
         row = {"mass_ratio": gamma, "uplift_acceleration": frame.uplift_acceleration}
-        row |= {"travel": travel(column, column.slenderness), "size_ratio": size}
-        row |= {"velocity_scale": math.sqrt(size) - 1.0}
+        row |= {"size_ratio": size, "velocity_scale": math.sqrt(size) - 1.0}
         row |= {"gain_least": gains.min(), "gain_most": gains.max()}
         turned = motions_rotations[motions_rotations.mass_ratio == gamma]
         for velocity in settings["velocities"]:
