@@ -175,6 +175,14 @@ def test_wall_that_the_energy_reaches_in_the_step_is_refused():
         bound.stepped(enclose(beyond[1]), (far, enclose(Fraction(15, 100))))
 
 
+@pytest.mark.parametrize("side", SIDES)
+def test_bound_on_a_state_has_its_rotation_on_its_side_and_none_on_the_other(side):
+    state = enclose(Fraction(1, 10)), enclose(Fraction(1, 100))
+    bound = Bound.of_state(Block(NUMBERS, True), ground("one-sine"), enclose(1), side, state)
+    walls = dict(zip(SIDES, bound.walls, strict=True))
+    assert (walls[side].high, walls[-side].high) == (state[0].high, 0)
+
+
 @pytest.mark.parametrize(("amplitude", "survives"), [("0.1", False), ("0.0001", True)])
 def test_bound_counts_the_jump_at_the_end_of_the_pulse(amplitude, survives):
     """A one-cosine ends at its peak: the energy 0.0195 becomes 0.0284, beyond a barrier of 0.02."""
