@@ -12,7 +12,7 @@ import pytest
 
 from replication import job as jobs
 from replication import step
-from replication.claims import Claim, read_claims, tolerance_fault
+from replication.claims import Claim, read_claims
 from replication.config import read_config, read_yaml
 from replication.sections import (
     Degrees,
@@ -78,15 +78,6 @@ def test_finding_of_another_sort_gives_no_verdict(claim, finding, message):
 
 
 @pytest.mark.parametrize(
-    ("printed", "tolerance", "is_fault"),
-    [(0.275, 0.0005, False), (0.275, 0.001, True), (5.0, 0.5, False), (5.0, 0.6, True)],
-)
-def test_tolerance_refuses_a_number_that_is_off_by_a_printed_digit(printed, tolerance, is_fault):
-    claim = Claim(**NUMBER | {"printed": printed, "tolerance": tolerance})
-    assert bool(tolerance_fault(claim)) == is_fault
-
-
-@pytest.mark.parametrize(
     ("number", "error", "printed", "tolerance", "expected"),
     [
         (3.786642, 1e-9, 3.79, 0.005, "3.787"),
@@ -108,9 +99,7 @@ GOOD = """\
 - id: stands
   where: here
   statement: It survives {scale} times.
-  rule: run
-  finding: good
-  expected: confirmed
+  finding: run.good
 """
 
 
@@ -134,16 +123,35 @@ def test_claim_has_the_numbers_of_its_config_and_a_false_one_is_named_with_its_f
 
 
 @pytest.mark.parametrize(
+    ("more", "tolerance"),
+    [
+        ("  printed: 0.275\n", 0.0005),
+        ("  printed: 5\n", 0.5),
+        ("  printed: R > 0\n", None),
+        ("  printed: 0.275\n  expected: not tested\n", None),
+    ],
+)
+def test_a_printed_number_that_is_judged_has_the_tolerance_of_its_digits(tmp_path, more, tolerance):
+    text = GOOD.replace("  finding: run.good\n", "") if "not tested" in more else GOOD
+    (claim,) = read(tmp_path, text + more)
+    assert claim.tolerance == tolerance
+
+
+@pytest.mark.parametrize(
     ("old", "new", "message"),
     [
         ("{scale}", "{scal}", "stands has {scal}, which is no key of the config; expected one of"),
         ("where", "were", "claim stands: 'where': Field required"),
-        ("confirmed", "proven", "claim stands: 'expected': Input should be 'confirmed', 'qual"),
-        ("  finding: good\n", "", "claim stands: a claim names a rule and a finding, unless"),
-        ("med", "med\n  tolerance: -1.0", "'tolerance': Input should be greater than 0"),
-        ("med", "med\n  tolerance: 1.0", "printed is None; expected a number, since there is a"),
-        ("med", "med\n  printed: .nan", "Input should be a finite number"),
-        ("med", "med\n  part: ours", "'part': Extra inputs are not permitted"),
+        (
+            "good",
+            "good\n  expected: proven",
+            "claim stands: 'expected': Input should be 'confirmed",
+        ),
+        ("  finding: run.good\n", "", "stands has the finding ''; expected rule.name, and none if"),
+        ("run.good", "good", "stands has the finding 'good'; expected rule.name, and none if"),
+        ("good", "good\n  expected: not tested", "has the finding 'run.good'; expected rule.name"),
+        ("good", "good\n  printed: .nan", "Input should be a finite number"),
+        ("good", "good\n  part: ours", "'part': Extra inputs are not permitted"),
         ("{scale}", "{scale:zz}", "claim stands: Unknown format code 'z'"),
         (GOOD, GOOD + GOOD, "claim stands: the id is there twice"),
         (GOOD, "text", "claims.yaml has 'text'; expected a list of claims"),

@@ -43,7 +43,7 @@ if __name__ == "__main__":
     run(snakemake, compute, findings)
 """
 CLAIM = """- {id: tiny_positive, where: here, statement: 'Positive, times {allen[factor]}.',
-  rule: tiny, finding: positive, expected: confirmed}
+  finding: tiny.positive}
 """
 TABLE = "results/tables/tiny.csv"
 

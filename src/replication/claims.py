@@ -8,12 +8,9 @@ from pydantic import StrictInt, ValidationError
 
 from replication.config import read_yaml
 from replication.numbers import inputs, print_rounding, without_marks
-from replication.sections import Number, Positive, Section
+from replication.sections import Number, Section
 
 Verdict = Literal["confirmed", "qualified", "refuted", "supported", "by definition", "not tested"]
-
-LARGEST_RELATIVE_TOLERANCE = 0.1
-"""A tolerance is at most this share of the printed value, or the rounding of its last digit."""
 
 BRACES = re.compile(r"\{\w+(?:\[[\w.]+\])*(?::[^{}]*)?\}")
 """A number of the config in a text; any other brace is text."""
@@ -27,20 +24,21 @@ class Entry(Section):
     statement: str
     printed: StrictInt | Number | str | None = None
     unit: str = ""
-    tolerance: Positive | None = None
-    rule: str = ""
     finding: str = ""
-    expected: Verdict
+    expected: Verdict = "confirmed"
     differs: str = ""
     remark: str = ""
 
 
 class Claim(Entry):
-    """A claim of a list, `part`: paper or ours.
+    """A claim of a list, `part`: paper or ours; the rule of its finding, apart from its name.
 
-    `marked` has statement and remark with the marks of their numbers.
+    `marked` has statement and remark with the marks of their numbers. The `tolerance` of a printed
+    number that is judged is half a unit of its last digit.
     """
 
+    rule: str = ""
+    tolerance: float | None = None
     marked: dict[str, str] | None = None
     part: str = ""
     file: str = ""
@@ -55,7 +53,7 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
     ------
     SystemExit
         When a claim has an unknown key, lacks one, or has the id of another; when its statement
-        names a key that the config lacks; when its tolerance is too wide, or its verdict unknown.
+        names a key that the config lacks; or when its verdict is unknown.
     """
     content = read_yaml(path)
     known = inputs(settings)
@@ -84,35 +82,16 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
                 ) from None
             except (TypeError, ValueError) as error:
                 raise SystemExit(f"{path}: claim {name}: {error}, in a number of braces") from None
-            fault = tolerance_fault(claim)
-            if claim.id in [each.id for each in claims]:
-                fault = "the id is there twice"
+            claim.rule, _, claim.finding = claim.finding.partition(".")
             is_judged = claim.expected not in ("by definition", "not tested")
+            if is_judged and isinstance(claim.printed, int | float):
+                claim.tolerance = print_rounding(claim.printed)
+            if claim.id in [each.id for each in claims]:
+                raise SystemExit(f"{path}: claim {claim.id}: the id is there twice")
             if bool(claim.rule and claim.finding) != is_judged:
-                fault = (
-                    "a claim names a rule and a finding, unless it is by definition or not tested"
+                raise SystemExit(
+                    f"{path}: claim {claim.id} has the finding '{row.get('finding', '')}'; "
+                    "expected rule.name, and none if it is by definition or not tested"
                 )
-            if fault:
-                raise SystemExit(f"{path}: claim {claim.id}: {fault}")
             claims.append(claim)
     return claims
-
-
-def tolerance_fault(claim: Claim) -> str:
-    """Return why the tolerance of a claim is too wide for its verdict to mean anything, or "".
-
-    A value that is off by a whole unit of the last printed digit, twice what rounding allows, has
-    to fail.
-    """
-    if claim.tolerance is None:
-        return ""
-    printed, tolerance = claim.printed, claim.tolerance
-    if not isinstance(printed, int | float):
-        return f"printed is {printed!r}; expected a number, since there is a tolerance"
-    rounding = print_rounding(printed)
-    widest = max(LARGEST_RELATIVE_TOLERANCE * abs(printed), rounding)
-    if tolerance > widest:
-        return f"tolerance is {tolerance:g}; expected at most {widest:g}, a tenth of {printed:g}"
-    if tolerance >= 2.0 * rounding:
-        return f"tolerance is {tolerance:g}; expected less than {2.0 * rounding:g}"
-    return ""
