@@ -3,16 +3,13 @@
 import re
 import subprocess
 import sys
-from itertools import pairwise
 
 import matplotlib as mpl
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
 
 import topheavy
 from figures import palette
-from replication.drawing import PAPER, shades
 from tests.cases import COLUMN, FRAME, ROOT
 from topheavy import Cap, FixedMassColumn, MonolithicPortal, Pulse, Record, plot
 
@@ -178,33 +175,6 @@ def test_no_two_meanings_have_one_colour():
     named = ("OVERTURNS", "SURVIVES", "PREVENTED", "CAUSED", "MODEL", "FIXED")
     colours = [getattr(palette, name) for name in named]
     assert len(set(colours)) == len(colours)
-
-
-def luminance(colour: str) -> float:
-    """The relative luminance of a colour (WCAG 2)."""
-    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in to_rgb(colour)]
-    return sum(w * c for w, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
-
-
-def contrast(one: str, other: str) -> float:
-    """The contrast of two colours (WCAG 2)."""
-    low, high = sorted((luminance(one), luminance(other)))
-    return (high + 0.05) / (low + 0.05)
-
-
-def test_outcomes_of_two_structures_differ_in_grey_print():
-    areas = (palette.OVERTURNED, palette.PREVENTED, palette.CAUSED)
-    for lighter, darker in pairwise(areas):
-        assert contrast(lighter, darker) > 1.7, (lighter, darker)
-
-
-@pytest.mark.parametrize("colour", ["OVERTURNS", "SURVIVES", "CAUSED", "MODEL", "FIXED"])
-def test_words_in_a_colour_can_be_read(colour):
-    assert contrast(getattr(palette, colour), PAPER) > 4.0
-
-
-def test_lightest_line_can_be_seen():
-    assert contrast(shades(6)[0], PAPER) > 3.0
 
 
 @pytest.mark.parametrize("name", ["OVERTURNS", "SURVIVES", "PREVENTED", "CAUSED"])

@@ -263,19 +263,6 @@ def test_one_sample_above_the_threshold_lifts_the_block(solve, at):
         assert (response.outcome == "no uplift") is outcome
 
 
-@pytest.mark.parametrize("degrees", [2.0, 5.0, 8.0, 14.0, 20.0])
-@pytest.mark.parametrize("ratio", [1.0001, 1.01, 1.1, 1.5, 3.0])
-def test_uplift_is_never_taken_for_an_impact(degrees, ratio):
-    """From uplift until |a| falls below the threshold again the block is only pushed outwards."""
-    block = th.RockingBlock(2.0, math.radians(degrees), 0.93)
-    lift = math.asin(1 / ratio) / 8.0
-    times = np.concatenate([[0.0], np.linspace(lift, math.pi / 8.0 - lift, 40)])
-    pulse = th.Pulse("one-sine", ratio * block.uplift_acceleration, 8.0)
-    found = th.simulate(block, pulse, duration=times[-1], samples=times)
-    assert not np.any(found.impact_times <= times[-1])
-    assert np.all(np.diff(found.rotation[1:]) < 0)
-
-
 def twin(peak, second=1.0):
     """Two triangles of 0.4 s, 10 s apart; the second is `second` times the first."""
     triangle = np.array([0.0, 0.5, 1.0, 0.5, 0.0])

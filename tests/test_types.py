@@ -3,7 +3,6 @@
 import inspect
 import json
 import os
-import pydoc
 import re
 import subprocess
 import sys
@@ -80,12 +79,6 @@ def test_users_script_runs():
         script, capture_output=True, text=True, check=False, env=os.environ | {"MPLBACKEND": "agg"}
     )
     assert (run.returncode, run.stderr) == (0, "")
-
-
-@pytest.mark.parametrize("name", PUBLIC)
-def test_help_shows_the_types_by_their_short_names(name):
-    shown = pydoc.plain(pydoc.render_doc(getattr(topheavy, name)))
-    assert not re.search(r"numpy\.ndarray|_typing|topheavy\.structures\.Structure", shown)
 
 
 def test_what_a_public_function_returns_is_public():

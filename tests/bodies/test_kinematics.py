@@ -34,19 +34,6 @@ def test_displacement_is_that_of_the_turned_rectangle(column):
         assert (u, v) == pytest.approx(expected, rel=1e-12, abs=1e-13 * column.size)
 
 
-def test_horizontal_motion_is_odd_and_vertical_motion_even(column):
-    rotation = np.linspace(0.01, 2.0, 50) * column.slenderness
-    rate, second = 0.7, -1.3
-    right = cap_displacement(column, rotation)
-    left = cap_displacement(column, -rotation)
-    np.testing.assert_array_equal(left[0], -right[0])
-    np.testing.assert_array_equal(left[1], right[1])
-    right = cap_acceleration(column, rotation, rate, second)
-    left = cap_acceleration(column, -rotation, -rate, -second)
-    np.testing.assert_array_equal(left[0], -right[0])
-    np.testing.assert_array_equal(left[1], right[1])
-
-
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_acceleration_is_the_second_derivative_of_displacement(column, sign):
     def rotation(t):

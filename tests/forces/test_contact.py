@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import topheavy as th
-from topheavy.bodies.kinematics import cap_acceleration, outlines
-from topheavy.forces import CONTACTS, forces_at
+from topheavy.forces.contact import column_forces, forces_at
 
 SLENDER = th.Column(2.0 * math.sin(0.25), 2.0 * math.cos(0.25))  # α = 0.25
 TRILITH = th.Column(0.11, 0.40)
@@ -50,9 +49,8 @@ def masses(mass_ratio):
     return 0.5 / (1 + mass_ratio), mass_ratio / (1 + mass_ratio)
 
 
-def vector(forces, contact):
-    place = CONTACTS.index(contact)
-    return np.array([forces.horizontal[place], forces.vertical[place]])
+def vector(reaction):
+    return np.array([reaction.horizontal, reaction.vertical])
 
 
 def clockwise(arm, force):
@@ -96,8 +94,8 @@ def test_forces_move_and_turn_all_three_bodies_as_the_frame_rocks(frame, side, s
     second = angular_acceleration(frame, theta, ground)
     mass, beam = masses(frame.mass_ratio)
     forces = forces_at(frame, CAP, theta, rate, ground)
-    bases = [vector(forces, "base_left"), vector(forces, "base_right")]
-    tops = [vector(forces, "top_left"), vector(forces, "top_right")]
+    bases = [vector(forces.base_left), vector(forces.base_right)]
+    tops = [vector(forces.top_left), vector(forces.top_right)]
     at_centre, at_cap = accelerations(column, theta, rate, second, ground) / th.STANDARD_GRAVITY
     weight = np.array([0.0, 1.0])
     centre, corner = points_of(column, theta)
@@ -115,41 +113,20 @@ def test_forces_move_and_turn_all_three_bodies_as_the_frame_rocks(frame, side, s
     assert sum(moments) == pytest.approx(0.0, abs=1e-12)
 
 
-@pytest.mark.parametrize("frame", FRAMES, ids=IDS)
-def test_bases_carry_the_weight_and_the_inertia_of_the_whole_frame(frame):
-    theta = np.linspace(0.05, 1.5, 7) * frame.slenderness
-    rate, ground = 0.3, np.linspace(-1.0, 1.5, 7)
-    second = np.array(
-        [angular_acceleration(frame, *pair) for pair in zip(theta, ground, strict=True)]
-    )
-    forces = forces_at(frame, CAP, theta, rate, ground)
-    cap = np.array(cap_acceleration(frame.column, theta, rate, second)) / th.STANDARD_GRAVITY
-    mass, beam = masses(frame.mass_ratio)
-    total = vector(forces, "base_left") + vector(forces, "base_right")
-    inertia = (2 * mass / 2 + beam) * cap  # the columns' centres go half as far as the cap
-    np.testing.assert_allclose(total, inertia + [ground, np.ones(7)], rtol=1e-12, atol=1e-13)
-
-
 # Limits -------------------------------------------------------------------------------------------
 
 
 def test_light_cap_leaves_two_solitary_columns():
     motion = ([-0.1, 0.2, 0.05], [0.4, -0.3, 0.0], [0.0, 0.8, -0.5])
+    column = vector(column_forces(SLENDER, *motion))
     bare = of(0.0, *motion)
-    assert np.all(vector(bare, "top_left") == 0.0)
-    assert np.all(np.isnan(bare.friction_demand[2:]))  # they carry nothing
-    assert np.all(np.isfinite(bare.friction_demand[:2]))
-    forces = of(1e-7, *motion)
-    for base in CONTACTS[:2]:
-        np.testing.assert_array_equal(vector(bare, base), vector(bare, "base_left"))
-        np.testing.assert_allclose(vector(forces, base), vector(bare, base), atol=1e-5)
-
-
-def test_resting_at_the_balance_point_needs_no_friction():
-    forces = of(2.0, SLENDER.slenderness, 0.0)
-    np.testing.assert_allclose(forces.friction_demand, 0.0, atol=1e-15)
-    total = forces.vertical[:2].sum()
-    np.testing.assert_allclose(total, 1.0, rtol=1e-14)
+    assert np.all(vector(bare.top_left) == 0.0)
+    assert np.all(np.isnan(bare.top_left.friction_demand))  # it carries nothing
+    assert np.all(np.isfinite(bare.friction_demand))
+    for mass_ratio, error in ((0.0, 1e-15), (1e-7, 1e-5)):
+        forces = of(mass_ratio, *motion)
+        for base_force in (forces.base_left, forces.base_right):
+            np.testing.assert_allclose(2 * vector(base_force), column, atol=error)
 
 
 # Uplift -------------------------------------------------------------------------------------------
@@ -160,37 +137,19 @@ def test_resting_at_the_balance_point_needs_no_friction():
 def test_every_contact_needs_tan_alpha_when_the_ground_just_uplifts(frame, sign):
     threshold = frame.uplift_acceleration
     forces = forces_at(frame, CAP, 0.0, 0.0, sign * threshold)
-    loaded = 4 if frame.mass_ratio > 0.0 else 2
-    assert forces.friction_demand[:loaded] == pytest.approx(threshold, rel=1e-12)
-
-
-def test_strong_cosine_pulse_asks_twice_the_slenderness_of_a_column():
-    # Zhang & Makris (2001) print about 2 for α = 0.25 and 6αg, which the pulse has at once.
-    pulse = th.Pulse("one-cosine", 6 * 0.25, 5.0)
-    base, *_ = of(0.0, 0.0, 0.0, pulse.excitation(0.0)).friction_demand
-    assert base / math.tan(0.25) == pytest.approx(1.99579, abs=1e-5)
-
-
-@pytest.mark.parametrize("mass_ratio", [0.0, 0.2, 1.0, 7.0])
-@pytest.mark.parametrize("multiple", [1.0, 2.5, 6.0, 50.0])
-def test_base_contacts_together_need_what_the_formula_says(mass_ratio, multiple):
-    forces = of(mass_ratio, 0.0, 0.0, multiple * TAN)
-    horizontal, vertical = vector(forces, "base_left") + vector(forces, "base_right")
-    tau = (1 + 4 * mass_ratio) / (4 * (1 + mass_ratio) * (1 + 3 * mass_ratio))
-    along, push = 1 + multiple * TAN**2, tau * (multiple - 1)
-    expected = TAN * (along + push) / (along - push * TAN**2)
-    assert horizontal / vertical == pytest.approx(expected, rel=1e-12)
+    for contact in forces.contacts:
+        if frame.mass_ratio > 0.0 or contact in (forces.base_left, forces.base_right):
+            assert contact.friction_demand == pytest.approx(threshold, rel=1e-12)
 
 
 def test_column_top_contact_opens_once_the_line_of_thrust_leaves_the_span():
     limit = (CAP.span / 2 - SLENDER.half_width) / TAN  # b + d tan α = L/2
     for half_depth, opens in ((0.999 * limit, False), (1.001 * limit, True)):
         forces = of(1.5, 0.0, 0.0, TAN, cap=th.Cap(CAP.span, half_depth))
-        for contact, vertical, demand in zip(
-            CONTACTS, forces.vertical, forces.friction_demand, strict=True
-        ):
-            is_open = opens and contact == "top_right"
-            assert (vertical < 0.0) == math.isinf(demand) == is_open
+        assert (forces.top_right.vertical < 0.0) == (forces.least_vertical < 0.0) == opens
+        assert forces.top_left.vertical > 0.0
+        for demand in (forces.top_right.friction_demand, forces.friction_demand):
+            assert math.isinf(demand) == opens
 
 
 # Impact -------------------------------------------------------------------------------------------
@@ -203,8 +162,8 @@ def test_impulses_change_the_momentum_of_all_three_bodies(frame, before):
     after = frame.restitution * before
     mass, beam = masses(frame.mass_ratio)
     impulses = th.impact_impulses(frame, CAP, before)
-    bases = [vector(impulses, "base_left"), vector(impulses, "base_right")]
-    tops = [vector(impulses, "top_left"), vector(impulses, "top_right")]
+    bases = [vector(impulses.base_left), vector(impulses.base_right)]
+    tops = [vector(impulses.top_left), vector(impulses.top_right)]
     old, new = points_of(column, -side * 1e-300), points_of(column, side * 1e-300)
 
     def velocity(arm, rate):  # of a body that turns clockwise
@@ -223,46 +182,7 @@ def test_impulses_change_the_momentum_of_all_three_bodies(frame, before):
     assert sum(moments) == pytest.approx(0.0, abs=1e-14)
 
 
-def test_solitary_column_needs_three_tan_alpha_over_four_plus_its_square_and_a_massless_one_it():
-    impulses = th.impact_impulses(th.RockingFrame(SLENDER, 0.0), CAP, -0.6)
-    assert vector(impulses, "base_left").min() > 0.0  # it stops what moves to the left
-    assert impulses.friction_demand[0] == pytest.approx(3 * TAN / (4 + TAN**2), rel=1e-13)
-    massless = th.impact_impulses(th.RockingFrame(SLENDER, math.inf), CAP, 0.6)
-    assert massless.friction_demand == pytest.approx(TAN, rel=1e-13)
-
-
 # Bad input ----------------------------------------------------------------------------------------
-
-
-STOCKY, NARROW = th.Column(0.7, 0.4), th.Cap(1.4, 0.2)
-
-
-@pytest.mark.parametrize(
-    ("call", "says"),
-    [
-        (lambda: th.Cap(span=0.0, half_depth=0.3), "span is 0 m; expected more than zero"),
-        (lambda: th.Cap(span=3.0, half_depth=math.inf), "half_depth is inf; expected a finite"),
-        (
-            lambda: forces_at(th.RockingFrame(SQUARE, 1.0), NARROW, 0.1, 0.0, 0.0),
-            r"span is 1\.4 m; expected more than the width of a column, 1\.4 m",
-        ),
-        (
-            lambda: th.impact_impulses(th.RockingFrame(th.Column(0.7, 2.0), 1.0), NARROW, 0.1),
-            r"span is 1\.4 m",
-        ),
-        (lambda: of(1.0, "0.1", 0.1, 0.0), "rotation: element 0 is '0.1'"),
-        (lambda: of(1.0, 0.1, None, 0.0), "velocity: element 0 is None"),
-        (lambda: of(1.0, 0.1, 0.1, {}), "ground_acceleration: element 0 is {}"),
-        (lambda: of(1.0, [-1.7, math.nan, 0.1], 0.0), "up to 1.7 rad; expected less than π/2"),
-        (
-            lambda: th.impact_impulses(th.RockingFrame(STOCKY, 1.0), CAP, 0.5),
-            "no rocking after an impact",
-        ),
-    ],
-)
-def test_bad_input_is_refused_by_name(call, says):
-    with pytest.raises(ValueError, match=says):
-        call()
 
 
 PULSE = th.Pulse("one-sine", 0.36, period=1.2)
@@ -279,9 +199,12 @@ def test_forces_of_a_response_are_those_of_its_states(motion):
     ground = np.zeros(200) if motion is None else motion.excitation(response.time)
     states = forces_at(frame, CAP, response.rotation, response.velocity, ground)
     away = np.abs(response.time[:, None] - response.impact_times).min(axis=1) > 1e-6
-    at = forces.sel(time=response.time[away])
-    for values, state in ((at.horizontal, states.horizontal), (at.vertical, states.vertical)):
-        assert values.values == pytest.approx(state[:, away], abs=1e-9, nan_ok=True)
+    for name, contact in zip(forces.contact.values, states.contacts, strict=True):
+        at = forces.sel(contact=name, time=response.time[away])
+        assert at.horizontal.values == pytest.approx(
+            contact.horizontal[away], abs=1e-9, nan_ok=True
+        )
+        assert at.vertical.values == pytest.approx(contact.vertical[away], abs=1e-9, nan_ok=True)
     # Both limits at each impact, and the samples of a record, are times of the forces.
     for impact in response.impact_times:
         assert (np.abs(forces.time.values - impact) < 1e-7).sum() == 2
@@ -308,41 +231,3 @@ def test_forces_end_where_the_frame_overturns():
     forces = th.contact_forces(frame, CAP, response, strong)
     ended = np.isnan(forces.vertical).all("contact").values
     assert 0 < ended.sum() < ended.size
-
-
-def test_response_of_another_structure_or_motion_is_refused():
-    frame = th.RockingFrame(SLENDER, 2.0)
-    response = th.simulate(frame, RECORD)
-    vertical = RECORD.with_samples(0.3 * np.sin(0.7 * np.arange(60)))
-    shaken = th.simulate(frame, RECORD, vertical=vertical)
-    late = th.simulate(frame, RECORD, samples=[0.5, 1.0])
-    for call, says in [
-        (
-            lambda: th.contact_forces(th.RockingFrame(SLENDER, 1.0), CAP, response, RECORD),
-            "differs",
-        ),
-        (lambda: th.contact_forces(frame, CAP, response, RECORD.scaled(1.01)), "differs by up to"),
-        (lambda: th.contact_forces(frame, CAP, shaken, RECORD), "without a vertical component"),
-        (lambda: th.contact_forces(frame, CAP, late, RECORD), "begins at 0.5 s; expected t = 0"),
-        (lambda: th.contact_forces(SLENDER, CAP, response, RECORD), "expected a RockingFrame"),
-    ]:
-        with pytest.raises(ValueError, match=says):
-            call()
-
-
-THREE = th.RockingFrame.of_masses(SLENDER, cap_mass=6.0, column_mass=1.0, columns=3)
-
-
-@pytest.mark.parametrize(
-    "call",
-    [
-        lambda: forces_at(THREE, CAP, 0.1, 0.0, 0.0),
-        lambda: th.impact_impulses(THREE, CAP, 0.5),
-        lambda: th.contact_forces(THREE, CAP, th.simulate(THREE, PULSE), PULSE),
-        lambda: outlines(THREE, 0.1, 4.0, 0.3),
-    ],
-)
-def test_frame_of_three_columns_has_no_forces_and_no_picture(call):
-    assert "columns=3" in repr(THREE)
-    with pytest.raises(ValueError, match="frame has 3 columns; expected two"):
-        call()

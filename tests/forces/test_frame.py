@@ -150,8 +150,3 @@ def test_clamped_frame_is_two_cantilevers_under_their_inertia(ratio):
     assert shear == pytest.approx(peak, rel=1e-12)
     assert overturning == pytest.approx(peak * (2 * column * 3.0 + beam * 6.5), rel=1e-12)
     assert bending == pytest.approx(peak * (column * 3.0 + beam / 2 * 6.0), rel=1e-12)
-
-
-def test_clamped_frame_refuses_a_motion_that_never_ends():
-    with pytest.raises(ValueError, match="goes on forever"):
-        clamped_forces(RockingFrame(COLUMN, 1.0), CAP, th.Pulse("harmonic", 0.3, 5.0))

@@ -51,26 +51,6 @@ def test_units_are_understood_in_their_usual_spellings_and_no_others():
         assert acceleration_in_g(text) is None
 
 
-@pytest.mark.parametrize(
-    ("make", "value", "says"),
-    [
-        *((lambda a: Record(0.02, a), [0.0, bad], rf"sample 1 of 2 is {bad}")
-          for bad in (math.nan, math.inf, -math.inf)),
-        *((lambda a: Record(0.02, a), few, "shape.*two samples") for few in ([0.1], [[0.1, 0.2]])),
-        (lambda a: Record(0.02, a), [0.1, None], "acceleration: element 1 is None; expected"),
-        (lambda a: Record(0.02, a), [[0.1], [0.2, 0.3]], "acceleration: .* rows of equal length"),
-        *((lambda x: Record(x, SAMPLES), x, f"time_step is {x:g}")
-          for x in (0.0, -0.02, math.nan, math.inf)),
-        (lambda x: Record(x, SAMPLES), "0.02", "time_step is '0.02'; expected a number"),
-        (lambda x: Record(0.02, SAMPLES, start=x), math.nan, "start is nan"),
-        (FIVE.scaled, math.nan, "factor is nan; expected a finite number"),
-    ],
-)  # fmt: skip
-def test_bad_value_is_refused_by_name(make, value, says):
-    with pytest.raises(ValueError, match=f"(?s){says}"):
-        make(value)
-
-
 def test_peaks_are_the_largest_acceleration_and_the_integral_of_the_straight_lines():
     for samples, peak in (([0.1, -0.4, 0.3], 0.4), ([0.1, 0.3, -0.5], 0.5)):
         record = Record(0.02, samples)  # in the middle, at an end; the velocity the other way round
@@ -94,33 +74,6 @@ def test_record_is_scaled_to_a_peak():
 
 TIME = 0.01 * np.arange(400)
 MOTION = 0.3 * np.sin(2.5 * np.pi * TIME) * np.exp(-(((TIME - 2.0) / 0.8) ** 2))
-
-
-@pytest.mark.filterwarnings("error")
-def test_motion_and_what_is_computed_from_it_pass_without_a_word():
-    record = Record(0.01, MOTION, "a motion")
-    assert str(record) == "a motion: 400 samples, time step 0.01 s, PGA 0.2827 g, PGV 0.3981 m/s"
-    record.scaled(100.0).detrended()
-    Record(0.01, np.zeros(10), "at rest")
-
-
-@pytest.mark.filterwarnings("always")
-@pytest.mark.parametrize(
-    ("step", "samples", "unit", "says"),
-    [
-        (0.01, MOTION - 0.0078, "g", "velocity at the end is -0.305 m/s, with a PGV of 0.4"),
-        (0.01, 20.0 * MOTION, None, r"the PGV is 7.96 m/s.*; the largest acceleration is 5.65 g"),
-        (0.01, np.abs(MOTION), None, "no sample changes sign"),
-        (0.25, MOTION[::25], None, r"^record: time_step is 0.25 s: is it in ms\?$"),
-        (0.01, 8.0 * MOTION, None, r"^record: .* 2.26 g, and few exceed 2 g: is it in m/s²"),
-        (0.01, 1000.0 * np.sin(0.5 * np.arange(1000)), "m/s2", "102 g, and few exceed 5 g"),
-        (0.01, -12085 + 6000 * np.sin(0.06 * np.arange(1000)), "m/s2", "or counts"),
-    ],
-)
-def test_record_that_is_hardly_a_ground_motion_warns_with_its_number(step, samples, unit, says):
-    with pytest.warns(UserWarning, match=says) as caught:
-        Record(step, samples, unit=unit)
-    assert [one.filename for one in caught] == [__file__]
 
 
 @pytest.mark.parametrize("line", [-0.0078, 0.001 + 0.002 * TIME])

@@ -8,8 +8,7 @@ import pytest
 from steps.shared.segments import segments_of
 from tests.cases import pulse_forcing
 from topheavy import Pulse, Record, RockingBlock
-from topheavy.ground.shapes import PULSE_SHAPES, RICKER_SYMMETRIC
-from topheavy.kernel import forcing
+from topheavy.ground.shapes import PULSE_SHAPES
 from topheavy.kernel.forcing import (
     bounds_after,
     equation,
@@ -96,18 +95,6 @@ def test_a_motion_that_is_cut_off_lifts_when_the_whole_does_or_not_at_all(shape,
                 assert uplift == pytest.approx((time, *rest), rel=1e-12, abs=1e-14)
             else:
                 assert uplift[0] == math.inf
-
-
-def test_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
-    level = math.tan(math.radians(14.0))
-    pulse = pulse_forcing("ricker-symmetric", 3 * level, 2.0)
-    time, push, rate, side = next_uplift(pulse, 0.0, level)
-    phase = 2.0 * time
-    assert phase < forcing.RICKER_TURNS[0, 0]
-    assert push == 0.0
-    assert rate > 0.0
-    assert side == 1.0  # the side lobe is negative
-    assert 3 * unit_pulse(RICKER_SYMMETRIC, phase)[0] == pytest.approx(-1, rel=1e-13)
 
 
 def test_record_is_that_of_the_library():

@@ -12,7 +12,7 @@ import pytest
 from benchmarks.boundaries import SHAPES
 from tests.cases import BOTH, grid_of
 from topheavy import RockingBlock
-from topheavy.kernel import bernstein, forcing, grid, history, step
+from topheavy.kernel import grid, history, step
 from topheavy.kernel.forcing import forcing_of, pulse_waveform, record_waveform
 from topheavy.kernel.grid import MIN_PULSES, outcome_of, outcomes_of
 from topheavy.kernel.taylor import Method, oscillator
@@ -112,38 +112,6 @@ def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
     for bound in bounds:
         monkeypatch.setattr(history, bound, 0)
     assert ends(motion) == [history.UNRESOLVED] * 2
-
-
-def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
-    random = np.random.default_rng(7)
-    monkeypatch.setattr(bernstein, "MAX_PARTS", bernstein.MAX_PARTS // 4)
-    for number in range(300):
-        clustered = 0.1 ** random.uniform(0, 9) * random.uniform(size=15)
-        places = random.uniform(0.05, 0.9) + (clustered if number % 2 else 0.0 * clustered)
-        w = step.working_array()
-        w[step.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
-        bernstein.to_bernstein(w, step.POLYNOMIAL, 15, step.HULL)
-        arguments = (w, step.POLYNOMIAL, 0, 15, step.HULL, step.STACK, step.ROOTS, 15)
-        bernstein.roots.py_func(*arguments)
-        assert w[step.HALT, 0] == 0.0
-    monkeypatch.setattr(bernstein, "MAX_PARTS", 2)
-    bernstein.roots.py_func(*arguments)
-    assert w[step.HALT, 0] == 1.0  # the history is given up
-
-
-def test_newton_finds_what_is_looked_for_in_a_quarter_of_its_steps(monkeypatch):
-    monkeypatch.setattr(forcing, "MAX_NEWTON_STEPS", forcing.MAX_NEWTON_STEPS // 4)
-    for number, shape in enumerate(("ricker-symmetric", "ricker-antisymmetric")):
-        for strength in (1 + 1e-12, 1 + 1e-6, 1.01, 2.0, 30.0, 1e5):
-            motion = forcing_of(pulse_waveform(shape), 2.0, strength, 0.0)
-            uplift, _, _, side = forcing.next_uplift(motion, 0.0, 1.0)
-            turns = [*forcing.RICKER_TURNS[number] / 2.0]
-            high = next((turn for turn in turns if turn > uplift), motion.end)
-            low = max((turn for turn in turns if turn < uplift), default=0.0)
-            if 0.0 < uplift < math.inf:
-                arguments = (motion, low, high, -side, 1.0)
-                few, many = forcing._crossing.py_func(*arguments), forcing._crossing(*arguments)
-                assert few == pytest.approx(many, rel=1e-8 if strength < 1.01 else 1e-15, abs=1e-5)
 
 
 CHILD = """

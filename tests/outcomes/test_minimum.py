@@ -127,36 +127,6 @@ def test_range_that_begins_in_an_interval_ends_in_one_or_has_none_says_so():
     )
 
 
-@pytest.mark.parametrize(
-    ("changes", "says"),
-    [
-        ({"scale_range": (2.0, 1.0)}, r"scale_range is \(2, 1\); expected it to ascend"),
-        (
-            {"scale_range": (-1.0, 1.0)},
-            r"scale_range begins at -1; .* give excitation.scaled\(-1\)",
-        ),
-        ({"scale_range": (0.0, math.inf)}, "scale_range is inf"),
-        ({"scale_range": (0.0, 1.0, 2.0)}, r"scale_range has shape \(3,\); expected two factors"),
-        ({"scale_range": 3.0}, r"scale_range has shape \(\); expected two factors"),
-        ({"floor": 0.0}, "floor is 0; expected more than zero"),
-        ({"floor": math.nan}, "floor is nan"),
-        ({"floor": "fine"}, "floor is 'fine'; expected a number"),
-        (
-            {"floor": 1e-11, "scale_range": (4.5, 8.0)},
-            r"floor is 1e-11 of 4.5 to 8: 3.5e\+11 cells; expected at most",
-        ),
-        ({"structure": 3}, "structure is 3; expected a Column, a RockingFrame"),
-        ({"excitation": 3}, "excitation is 3; expected a Pulse or a Record"),
-        ({"excitation": None}, "excitation is None; expected a Pulse or a Record"),
-        ({"excitation": th.Pulse("harmonic", 0.3, 5.0)}, "'harmonic'.*forever"),
-    ],
-)
-def test_bad_search_is_refused_by_name_and_value(changes, says):
-    valid = {"structure": BLOCK, "excitation": SHAKING, "scale_range": (0.0, 3.0), "floor": 0.1}
-    with pytest.raises(ValueError, match=says):
-        th.lowest_overturning(**valid | changes)
-
-
 # ---------------------------------------------------------------------------- spectrum, capacity
 
 
@@ -174,13 +144,6 @@ def test_spectrum_has_the_minimum_of_each_period(shape):
             after_impact = th.judge(BLOCK, pulse.scaled(one)).number_of_impacts > 0
             assert after_impact == spectrum.after_impact.sel(period=period)
     assert np.isfinite(spectrum.acceleration).sum() >= 1
-
-
-def test_spectrum_refuses_a_harmonic_and_a_period_of_zero():
-    with pytest.raises(ValueError, match=r"'harmonic'.*forever"):
-        th.overturning_spectrum(BLOCK, "harmonic", [1.0])
-    with pytest.raises(ValueError, match="periods goes down to 0"):
-        th.overturning_spectrum(BLOCK, "one-sine", [0.0, 1.0])
 
 
 def by_counting(factors, overturned, window, share):
@@ -256,24 +219,3 @@ def test_grid_that_is_too_coarse_is_refused_with_one_that_is_not(factors):
     coarser = int(size) - 1
     with pytest.raises(ValueError, match="steps of up to"):
         th.Capacity(np.geomspace(float(first), float(last), coarser), np.zeros(coarser, bool))
-
-
-@pytest.mark.parametrize(
-    ("changes", "says"),
-    [
-        ({"factors": [1.0, 1.0]}, "factors do not increase"),
-        ({"factors": [0.0, 1.0]}, "factors goes down to 0"),
-        ({"overturned": [True]}, r"overturned has shape \(1,\); expected \(2,\)"),
-        (
-            {"overturned": np.ma.masked_array([True, False], [0, 1])},
-            "overturned has 1 masked elements of 2; expected numbers",
-        ),
-        ({"window": 0.0}, "window is 0; expected more than zero"),
-        ({"window": 1.5}, "window is 1.5; expected a value from 0 to 1"),
-        ({"share": 1.1}, "share is 1.1; expected a value from 0 to 1"),
-        ({"unit_acceleration": "1"}, "unit_acceleration is '1'; expected a number"),
-    ],
-)
-def test_bad_capacity_is_refused_by_name_and_value(changes, says):
-    with pytest.raises(ValueError, match=says):
-        th.Capacity(**({"factors": [1.0, 1.001], "overturned": [False, True]} | changes))

@@ -138,22 +138,6 @@ def test_walls_hold_the_motions_of_a_box(low, high, least):
     assert closest > least
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"factor": (2.0, 1.0)}, r"factor is \(2, 1\); expected the lower end first"),
-        ({"factor": math.nan}, "factor is nan"),
-        ({"pulse": th.Pulse("harmonic", 1.0, 1.0)}, "goes on forever"),
-        ({"pulse": th.Record(0.1, [0.0, 0.1])}, "expected a Pulse"),
-        ({"structure": th.Column(3.0, 1.0)}, "no rocking after an impact"),
-        ({"structure": th.RockingBlock(2.0, 1.5705, 0.9)}, r"slenderness is '1\.5705'; expected"),
-    ],
-)
-def test_bad_value_is_named(change, message):
-    with pytest.raises(ValueError, match=message):
-        certified(**({"structure": COLUMN, "pulse": PULSE} | change))
-
-
 @pytest.mark.parametrize("structure", STRUCTURES, ids=repr)
 def test_certificate_is_about_the_structure(structure):
     """The checker computes α, p and √r of the dimensions; they are those of the floats."""

@@ -1,6 +1,5 @@
 """Fragility of an ensemble, and what it refuses."""
 
-import math
 import re
 
 import numpy as np
@@ -8,7 +7,6 @@ import pytest
 
 import topheavy as th
 from steps.shared import plain
-from topheavy import Column, Pulse, Record, fragility
 
 PIER = th.Column(0.25, 1.5)
 STRUCTURES = {
@@ -148,48 +146,6 @@ def test_text_has_medians_and_gains():
     assert pair.startswith("bent over pier: gain ")
 
 
-SHAKE = Record(0.02, [0.0, 0.3, -0.2, 0.1, 0.0], "shake")
-STILL = Record(0.02, [0.0, 0.0, 0.0], "still")
-
-
-def arias(motion):
-    """Arias intensity but for a constant: it grows with the square of the motion."""
-    return float((motion.acceleration**2).sum() * motion.time_step)
-
-
-VALID = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE.scaled(2.0)], "levels": [0.1, 0.2]}
-
-
-@pytest.mark.parametrize(
-    ("name", "value", "message"),
-    [
-        ("structures", {}, "structures is empty; expected one, a list, or a mapping from names"),
-        ("structures", [PIER, 3], "structures, int 2: structure is 3; expected a Column"),
-        ("structures", [Column(2.0, 1.0)], "structures, Column 1: slenderness is 1.10715 rad"),
-        ("motions", [], "motions is []; expected a list of motions, not empty"),
-        ("motions", [SHAKE, "x"], "motions[1] is 'x'; expected a Record or a Pulse"),
-        ("motions", [Pulse("harmonic", 1.0, 3.0)], "expected a Record or a Pulse that ends"),
-        ("motions", [SHAKE, STILL], "measure of motions[1] is 0; expected more than zero"),
-        ("motions", [Pulse("one-sine", 1.0, 3.0)], "which has no PGV; expected a Record, or a fun"),
-        ("levels", [0.0, 0.1], "levels goes down to 0; it cannot be zero or negative"),
-        ("levels", [0.3, 0.1], "levels is array([0.3, 0.1]); expected levels that increase"),
-        ("measure", "PGD", "measure is 'PGD'; expected 'PGV', 'PGA' or a function of a motion"),
-        ("vertical", [SHAKE], "expected 2 Records, one a motion"),
-        ("vertical", [SHAKE, None], "vertical[1] is None; expected a Record for every motion"),
-        ("measure", arias, "measure of motions[0] grows by 4 under a factor of 2 on the motion"),
-        ("measure", arias, "expected 2: take its value to the power 1/2"),
-        ("measure", lambda motion: 3.0, "grows by 1 under a factor of 2 on the motion; expected 2"),
-        ("seed", None, "seed is None; expected a number"),
-        ("groups", ["a", "b"], "groups is ['a', 'b']; expected the group of each of 2 motions"),
-        ("confidence", 1.0, "confidence is 1; expected more than 0 and less than 1"),
-        ("resamples", 10, "resamples is 10; expected a whole number from 100 to"),
-    ],
-)
-def test_bad_argument_is_named_with_its_value(name, value, message):
-    with pytest.raises(ValueError, match=re.escape(message)):
-        fragility(**{**VALID, name: value})
-
-
 def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(ensemble):
     limit = 0.4 * PIER.slenderness
     result = th.fragility(STRUCTURES, MOTIONS, LEVELS, rotation_limit=limit, resamples=100)
@@ -204,15 +160,6 @@ def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(ens
     assert (result.rotation_limit, ensemble.rotation_limit) == (limit, None)
     with pytest.raises(ValueError, match=r"rotation_limit is 5 rad \(286\.5°\); expected an angle"):
         th.fragility(STRUCTURES, MOTIONS, LEVELS, rotation_limit=5.0)
-
-
-def test_root_of_an_intensity_that_grows_with_the_square_is_a_measure(ensemble):
-    levels = np.geomspace(0.01, 3.0, 30)
-    result = th.fragility(
-        STRUCTURES, MOTIONS, levels, lambda motion: math.sqrt(arias(motion)), resamples=100
-    )
-    scales = levels[:, None] / [math.sqrt(arias(motion)) for motion in MOTIONS]
-    assert result.factors == pytest.approx((scales.min(), scales.max()))
 
 
 @pytest.mark.parametrize(
@@ -231,34 +178,3 @@ def test_text_says_why_there_is_no_median(levels, reason):
     motions = [wave(number) for number in range(20)]
     result = th.fragility({"pier": PIER}, motions, levels, resamples=100)
     assert f"pier: median unknown: {reason}" in str(result)
-
-
-def test_table_has_a_row_for_each_level_and_structure(ensemble):
-    table = ensemble.to_frame()
-    assert len(table) == len(STRUCTURES) * len(LEVELS)
-    assert list(table)[:4] == ["structure", "level", "overturned", "probability"]
-    assert table.probability.sum() == pytest.approx(float(ensemble.curves.probability.sum()))
-    assert not table.duplicated(["structure", "level"]).any()
-
-
-@pytest.mark.parametrize(
-    ("levels", "measure", "words"),
-    [
-        ([10.0, 20.0, 30.0], "PGV", "half of the levels exceed 20 m/s.*are they in cm/s"),
-        ([100.0, 200.0, 300.0], "PGA", "half of the levels exceed 200 g.*are they in gal or m/s"),
-    ],
-)
-def test_levels_in_another_unit_are_warned_of(levels, measure, words):
-    with pytest.warns(UserWarning, match=words):
-        th.fragility([PIER], MOTIONS[:2], levels, measure, resamples=100)
-
-
-def test_motion_that_is_there_twice_is_warned_of():
-    with pytest.warns(UserWarning, match=r"motions\[2\] equals motions\[0\]"):
-        th.fragility([PIER], [*MOTIONS[:2], wave(0)], [0.1, 0.2], resamples=100)
-
-
-def test_motion_that_is_scaled_like_noise_is_warned_of():
-    noise = wave(0).scaled(1e-12)
-    with pytest.warns(UserWarning, match=r"motions\[1\] is scaled by up to .*: is it noise"):
-        th.fragility([PIER], [MOTIONS[1], noise], [0.1, 0.2], resamples=100)

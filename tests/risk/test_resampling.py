@@ -29,21 +29,6 @@ def test_equal_counts_are_equal():
     assert (means_within(np.ones(49), [None] * 49, 50, 1) == 1.0).all()
 
 
-def test_groups_are_resampled_independently_of_each_other():
-    """If both drew the same, their shares would vary together: the variance would be doubled."""
-    fell, groups = np.tile([1.0, 0.0], 200), ["a"] * 200 + ["b"] * 200
-    means = means_within(fell, groups, 4000, 1)[1:]
-    assert means.std() == pytest.approx(np.sqrt(0.25 / 400), rel=0.05)
-
-
-def test_group_in_blocks_scatters_as_a_whole(monkeypatch):
-    monkeypatch.setattr(resampling, "MOTIONS_PER_BLOCK", 30)
-    fell, groups = np.arange(200) % 2, ["a"] * 100 + ["b"] * 100
-    means = means_within(fell, groups, 4000, 1)
-    assert means[0] == pytest.approx(0.5)
-    assert means[1:].std() == pytest.approx(np.sqrt(0.25 / 200), rel=0.05)
-
-
 def test_paired_interval_is_that_of_scipy():
     """SciPy draws motions, and leaves the two structures of a motion together."""
     random = np.random.default_rng(8)
@@ -142,14 +127,6 @@ def test_exact_interval_has_half_of_the_rest_on_each_side(confidence):
     assert low[0, 1:] == pytest.approx(beta.ppf(tail, counts[0, 1:], 13 - counts[0, 1:]))
 
 
-def test_exact_interval_covers_probabilities_that_differ_between_groups():
-    """Hoeffding (1956): the count of unequal trials scatters less than the binomial of the mean."""
-    each = np.repeat([0.02, 0.3, 0.75], [20, 10, 10])
-    fell = (np.random.default_rng(6).random((4000, 40)) < each).sum(axis=1)
-    low, high = exact_interval(fell, 40, 0.95)
-    assert ((low <= each.mean()) & (each.mean() <= high)).mean() > 0.97
-
-
 def test_sign_test_is_exact():
     p_values = sign_test(np.array([[5, 0], [4, 3]]), np.array([[0, 0], [1, 3]]))
     assert p_values == pytest.approx(np.array([[2 / 32, 1.0], [12 / 32, 1.0]]))
@@ -168,16 +145,6 @@ def test_intervals_miss_the_true_value_as_often_as_the_docstring_says(motions, m
             _, low, high = interval(values, 0.95)
             missed[place] += low > true or high < true
     assert missed / samples == pytest.approx([median, dispersion], abs=0.045)
-
-
-def test_one_motion_has_no_scatter():
-    levels = np.array([0.5, 1.0, 2.0])
-    curves, pairs = tables([[0.7, 1.5]], levels=levels)
-    assert curves.probability.to_numpy().tolist() == [[0, 1, 1], [0, 0, 1]]
-    assert curves.probability_high.to_numpy()[0, 0] == pytest.approx(0.975)
-    assert np.isnan(curves.median_capacity).all()
-    assert np.isnan(pairs.less_low).all()
-    assert pairs.less.to_numpy().tolist() == [[0, 1, 0]]
 
 
 def test_second_that_is_stronger_has_less_probability_and_a_gain():
