@@ -20,8 +20,7 @@ from topheavy.bodies.free_rocking import quarter_period, restoring_moment
 from topheavy.bodies.kinematics import outlines
 from topheavy.bodies.response import MAX_SAMPLES
 from topheavy.bodies.structures import simplified
-from topheavy.forces.contact import column_forces, forces_at
-from topheavy.forces.frame import clamped_forces
+from topheavy.forces import clamped_forces, forces_at
 from topheavy.ground.shapes import ELEMENTARY, PULSE_SHAPES
 from topheavy.proven import certified
 
@@ -330,8 +329,8 @@ BAD = {  # what the message begins with or has, and what is called
     "half_depth is inf; expected a finite": lambda: th.Cap(span=3.0, half_depth=math.inf),
     "span is 1 m; expected more than the width of": lambda: forces_at(FRAME, NARROW, 0.1, 0, 0),
     "distance between their axes": lambda: th.impact_impulses(FRAME, NARROW, 0.1),
-    "rotation: element 0 is '0.1'": lambda: column_forces(COLUMN, "0.1", 0.1, 0.0),
-    "ground_acceleration: element 0 is {}": lambda: column_forces(COLUMN, 0.1, 0.1, {}),
+    "rotation: element 0 is '0.1'": lambda: forces_at(FRAME, CAP, "0.1", 0.1, 0.0),
+    "ground_acceleration: element 0 is {}": lambda: forces_at(FRAME, CAP, 0.1, 0.1, {}),
     "up to 1.7 rad; expected less than π/2": lambda: forces_at(FRAME, CAP, [-1.7, 0.1], 0, 0),
     "no rocking after an impact": lambda: th.impact_impulses(th.RockingFrame(STOCKY, 1), CAP, 0.5),
     "has 3 columns; expected two": lambda: th.impact_impulses(THREE, CAP, 0.1),

@@ -1,0 +1,358 @@
+"""Forces of a frame, derived and of the library, against Newton and Euler for its three bodies."""
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import topheavy as th
+from derivation import consequences
+from derivation.mechanics import (
+    equation_of_motion,
+    motion_of_columns,
+    restitution,
+)
+from derivation.notation import (
+    SIDES,
+    I_o,
+    N,
+    R,
+    alpha,
+    g,
+    gamma,
+    ground_acceleration,
+    m_b,
+    m_c,
+    velocity,
+    vertical_acceleration,
+)
+from tests.cases import COLUMN, RECORDS
+from topheavy import STANDARD_GRAVITY
+from topheavy.forces import (
+    CONTACTS,
+    SECTIONS,
+    base_shear_slope,
+    centre_height,
+    clamped_forces,
+    forces_at,
+    frame_forces,
+    largest_forces,
+)
+
+ON_BOTH = pytest.mark.parametrize("side", SIDES, ids=lambda side: side.label)
+
+
+def clockwise(arm, force):
+    return arm[1] * force[0] - arm[0] * force[1]
+
+
+def velocity_of(arm, rate):
+    """The velocity of a point of a body that turns clockwise about a fixed pivot."""
+    return rate * np.array([arm[1], -arm[0]])
+
+
+def solved(residual):
+    """Solve nine linear balances for the motion and the forces: ground 1 and 2, cap 1 and 2."""
+    constant = residual(np.zeros(9))
+    matrix = np.stack([residual(row) - constant for row in np.eye(9)], axis=1)
+    return np.linalg.solve(matrix, -constant)
+
+
+def three_bodies(sign, state, *, spacing=3.0, depth=0.25):
+    """Return θ̈ and the forces of two columns and a cap beam."""
+    size, slenderness, column, beam, lean, rate, ground = state
+    angle = sign * lean - sign * slenderness  # of the diagonal, clockwise from the vertical
+    centre = size * np.array([np.sin(angle), np.cos(angle)])
+    loads = np.array([ground, STANDARD_GRAVITY])
+    shift = -sign * size * np.sin(slenderness)
+    arms = [(shift + end * spacing / 2, -depth) for end in (-1, 1)]
+
+    def residual(unknowns):
+        second, forces = unknowns[0], unknowns[1:].reshape(4, 2)
+
+        def inertia(mass, arm):
+            return mass * (velocity_of(arm, second) - rate**2 * np.array(arm) + loads)
+
+        equations = []
+        for at_ground, on_cap in zip(forces[:2], forces[2:], strict=True):
+            equations += [*(at_ground - on_cap - inertia(column, centre))]
+            moment = clockwise(-centre, at_ground) - clockwise(centre, on_cap)
+            equations.append(moment - column * size**2 / 3 * second)
+        equations += [*(forces[2] + forces[3] - inertia(beam, 2 * centre))]
+        equations.append(sum(clockwise(*pair) for pair in zip(arms, forces[2:], strict=True)))
+        return np.array(equations)
+
+    return solved(residual)
+
+
+def impact(sign, slenderness, column, beam, *, spacing=3.0, depth=0.25):
+    """θ̇ after an impact that changes over to the side `sign`, for θ̇ = 1 before, and impulses."""
+    b, h = np.sin(slenderness), np.cos(slenderness)
+    new = np.array([-sign * b, h])  # from the new pivot to the centre; the old pivot is across
+    old = np.array([sign * b, h])
+    arms = [(end * spacing / 2 - sign * b, -depth) for end in (-1, 1)]
+
+    def residual(unknowns):
+        after, impulses = unknowns[0], unknowns[1:].reshape(4, 2)
+        jump = velocity_of(new, after) - velocity_of(old, 1.0)  # the cap goes twice as far
+        equations = []
+        for ground, cap in zip(impulses[:2], impulses[2:], strict=True):
+            equations += [*(ground - cap - column * jump)]
+            moment = clockwise(-new, ground) - clockwise(new, cap)
+            equations.append(moment - column / 3 * (after - 1.0))
+        equations += [*(impulses[2] + impulses[3] - beam * 2 * jump)]
+        equations.append(sum(clockwise(*pair) for pair in zip(arms, impulses[2:], strict=True)))
+        return np.array(equations)
+
+    return solved(residual)
+
+
+# ---------------------------------------------------------------------------- the derivation
+
+
+def states(number=8):
+    random = np.random.default_rng(20140101)
+    for _ in range(number):
+        slenderness, bodies = random.uniform(0.05, 0.9), random.uniform(0.2, 8, 3)
+        lean = random.uniform(0, 1.5 * slenderness)
+        yield bodies[0], slenderness, *bodies[1:], lean, *random.normal(0, 2, 2)
+
+
+def values(side, state):
+    size, slenderness, column, beam, lean, rate, ground = state
+    return {
+        side.rotation: side.sign * lean,
+        R: size,
+        alpha: slenderness,
+        m_c: column,
+        m_b: beam,
+        I_o: 4 / 3 * column * size**2,
+        gamma: beam / (2 * column),
+        g: STANDARD_GRAVITY,
+        velocity: rate,
+        ground_acceleration: ground,
+    }
+
+
+@ON_BOTH
+def test_motion_of_three_bodies_is_that_of_the_equation(side):
+    for state in states():
+        derived = float(sp.N(equation_of_motion(side).rhs.subs(values(side, state))))
+        assert derived == pytest.approx(three_bodies(side.sign, state)[0], rel=1e-9)
+
+
+@ON_BOTH
+@pytest.mark.parametrize("slenderness", [0.05, 0.27, 0.8, 1.2])
+@pytest.mark.parametrize("mass_ratio", [1e-9, 0.4, 7.0])
+def test_impulses_on_three_bodies_give_the_restitution(side, slenderness, mass_ratio):
+    derived = restitution(side).subs({alpha: slenderness, gamma: mass_ratio})
+    bodies = impact(side.sign, slenderness, 1.0, 2 * mass_ratio)
+    assert bodies[0] == pytest.approx(float(derived), rel=1e-7)
+
+
+def test_many_columns_move_as_stated_over_ground_that_moves_up():
+    """The equation of N columns against numbers: p̂², the push and the vertical acceleration."""
+    numbers = {N: 5, alpha: 0.2, R: 2.0, g: 9.81, m_c: 1.0, m_b: 7.5, I_o: 16 / 3}
+    numbers |= {vertical_acceleration: -1.7, ground_acceleration: 3.0}
+    for side in SIDES:
+        motion = motion_of_columns(side).subs(numbers | {side.rotation: side.sign * 0.05})
+        p_squared = 4.0 / 5.5 * 3.0 * 9.81 / 8.0
+        stated = side.sign * math.sin(0.15) * (1.0 - 1.7 / 9.81) + 3.0 / 9.81 * math.cos(0.15)
+        assert float(motion) == pytest.approx(-p_squared * stated)
+
+
+# ---------------------------------------------------------------------------- the library
+
+SLENDER = th.Column(2.0 * math.sin(0.25), 2.0 * math.cos(0.25))  # α = 0.25
+CAP = th.Cap(span=3.1, half_depth=0.35)
+RATIOS = [0.0, 0.434, 4.0, math.inf]
+EVERY_RATIO = pytest.mark.parametrize("ratio", RATIOS)
+FRAMES = [
+    th.RockingFrame(column, ratio)
+    for column in (SLENDER, th.Column(0.11, 0.40), th.Column(0.7, 0.7))
+    for ratio in RATIOS
+]
+IDS = [f"α {frame.slenderness:.2f}, γ {frame.mass_ratio:g}" for frame in FRAMES]
+EVERY_FRAME = pytest.mark.parametrize("frame", FRAMES, ids=IDS)
+STATES = [(0.3, 0.1, 0.0), (1e-9, 0.2, 0.4), (0.9, -0.15, -0.7), (1.4, 0.05, 1.3)]  # θ/α, θ̇/p, g
+
+
+def masses(ratio):
+    """Of a column and the cap, in a frame of unit mass."""
+    return (0.0, 1.0) if ratio == math.inf else (0.5 / (1 + ratio), ratio / (1 + ratio))
+
+
+def components(forces):
+    return np.stack([forces.horizontal, forces.vertical], axis=-1)
+
+
+@EVERY_FRAME
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("state", STATES)
+def test_forces_are_those_of_three_bodies(frame, sign, state):
+    """Of the contacts, and what follows of them: base shear, overturning and bending moments."""
+    column, (lean, rate, ground) = frame.column, state
+    lean, rate = lean * column.slenderness, rate * column.frequency_parameter
+    bodies = column.size, column.slenderness, *masses(frame.mass_ratio), lean, rate
+    shape = {"spacing": CAP.span, "depth": CAP.half_depth}
+    _, *forces = three_bodies(sign, (*bodies, ground * STANDARD_GRAVITY), **shape)
+    expected = np.reshape(forces, (4, 2)) / STANDARD_GRAVITY
+    motion = (frame, CAP, sign * lean, rate, ground)
+    ours, inner = components(forces_at(*motion)), frame_forces(*motion)
+    np.testing.assert_allclose(ours, expected, rtol=1e-9, atol=1e-10)
+    assert inner.base_shear == pytest.approx(expected[:2, 0].sum(), abs=1e-10)
+    places = sign * column.half_width + CAP.span / 2 * np.array([-1, 1])
+    moment = -(places * expected[:2, 1]).sum()
+    assert inner.overturning_moment == pytest.approx(moment, abs=1e-10)
+    corner = sign * column.half_width * np.array([math.cos(lean), -sign * math.sin(lean)])
+    for section, way, at in ((0.0, 1.0, slice(2)), (1.0, -1.0, slice(2, 4))):
+        bending = [-clockwise(way * corner, force) for force in expected[at]]
+        own = inner.bending_moment[:, SECTIONS.index(section)]
+        np.testing.assert_allclose(own, bending, atol=1e-10)
+
+
+@pytest.mark.parametrize("frame", [each for each in FRAMES if each.restitution >= 0.0], ids=repr)
+@pytest.mark.parametrize("before", [0.8, -0.8])
+def test_impulses_are_those_of_three_bodies(frame, before):
+    size, shape = frame.column.size, {"spacing": CAP.span, "depth": CAP.half_depth}
+    shape = {name: length / size for name, length in shape.items()}
+    sign = math.copysign(1.0, before)
+    _, *impulses = impact(sign, frame.slenderness, *masses(frame.mass_ratio), **shape)
+    expected = np.reshape(impulses, (4, 2)) * before * size
+    ours = components(th.impact_impulses(frame, CAP, before))
+    np.testing.assert_allclose(ours, expected, rtol=1e-9, atol=1e-11)
+
+
+def of(mass_ratio, rotation, velocity, ground=0.0, *, cap=CAP):
+    return forces_at(th.RockingFrame(SLENDER, mass_ratio), cap, rotation, velocity, ground)
+
+
+def test_light_cap_leaves_two_solitary_columns():
+    motion = ([-0.1, 0.2, 0.05], [0.4, -0.3, 0.0], [0.0, 0.8, -0.5])
+    bare, light = of(0.0, *motion), of(1e-7, *motion)
+    assert np.all(np.isnan(bare.friction_demand[2:]))  # they carry nothing
+    assert np.all(np.isfinite(bare.friction_demand[:2]))
+    np.testing.assert_allclose(components(light), components(bare), atol=1e-5)
+
+
+@EVERY_FRAME
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_every_contact_needs_tan_alpha_when_the_ground_just_uplifts(frame, sign):
+    threshold = frame.uplift_acceleration
+    forces = forces_at(frame, CAP, 0.0, 0.0, sign * threshold)
+    loaded = 4 if frame.mass_ratio > 0.0 else 2
+    assert forces.friction_demand[:loaded] == pytest.approx(threshold, rel=1e-12)
+
+
+def test_column_top_contact_opens_once_the_line_of_thrust_leaves_the_span():
+    tan = math.tan(0.25)
+    limit = (CAP.span / 2 - SLENDER.half_width) / tan  # b + d tan α = L/2
+    for half_depth, opens in ((0.999 * limit, False), (1.001 * limit, True)):
+        forces = of(1.5, 0.0, 0.0, tan, cap=th.Cap(CAP.span, half_depth))
+        contacts = zip(CONTACTS, forces.vertical, forces.friction_demand, strict=True)
+        for contact, vertical, demand in contacts:
+            is_open = opens and contact == "top_right"
+            assert (vertical < 0.0) == math.isinf(demand) == is_open
+
+
+PULSE = th.Pulse("one-sine", 0.36, period=1.2)
+RECORD = th.Record(0.05, 0.36 * np.sin(0.2 * np.arange(60)) * np.hanning(60), "wave")
+HEAVY = th.RockingFrame(SLENDER, 2.0)
+
+
+@pytest.mark.parametrize("motion", [PULSE, RECORD, None], ids=["pulse", "record", "free"])
+def test_forces_of_a_response_are_those_of_its_states(motion):
+    start = {} if motion is not None else {"rotation": 0.2}
+    response = th.simulate(HEAVY, motion, **start, samples=200)
+    assert response.impact_times.size > 1
+    forces = th.contact_forces(HEAVY, CAP, response, motion)
+    ground = np.zeros(200) if motion is None else motion.excitation(response.time)
+    states = forces_at(HEAVY, CAP, response.rotation, response.velocity, ground)
+    away = np.abs(response.time[:, None] - response.impact_times).min(axis=1) > 1e-6
+    at = forces.sel(time=response.time[away])
+    for values, state in ((at.horizontal, states.horizontal), (at.vertical, states.vertical)):
+        np.testing.assert_allclose(values.values, state[:, away], atol=1e-9)
+    # Both limits at each impact, and the samples of a record, are times of the forces.
+    for instant in response.impact_times:
+        assert (np.abs(forces.time.values - instant) < 1e-7).sum() == 2
+    if motion is RECORD:
+        inside = motion.time[motion.time <= response.time[-1]]
+        assert np.isin(inside, forces.time.values).all()
+
+
+def test_largest_friction_is_met_although_the_response_has_few_samples():
+    few, many = (
+        th.contact_forces(HEAVY, CAP, th.simulate(HEAVY, RECORD, samples=samples), RECORD)
+        for samples in (3, 20_000)
+    )
+    needed = [float(forces.required_friction.max()) for forces in (few, many)]
+    assert needed[0] == pytest.approx(needed[1], rel=2e-3)
+
+
+def test_forces_end_where_the_frame_overturns():
+    strong = PULSE.scaled(4.0)
+    forces = th.contact_forces(HEAVY, CAP, th.simulate(HEAVY, strong), strong)
+    ended = np.isnan(forces.vertical).all("contact").values
+    assert 0 < ended.sum() < ended.size
+
+
+@cache
+def derived_slope(side):
+    return sp.diff(consequences.after_uplift(side), ground_acceleration)
+
+
+@pytest.mark.parametrize("slenderness", [0.05, math.atan(1 / 6), 0.6])
+@pytest.mark.parametrize("ratio", [0.1, 1.0, 7.0])
+def test_base_shear_grows_after_uplift_as_derived(slenderness, ratio):
+    frame = th.RockingFrame(th.Column(math.sin(slenderness), math.cos(slenderness)), ratio)
+    numbers = {alpha: slenderness, gamma: ratio, g: 1.0}
+    shear = frame_forces(frame, CAP, 0.0, 0.0, np.array([1.0, 1.5])).base_shear
+    assert (shear[1] - shear[0]) / 0.5 == pytest.approx(base_shear_slope(frame), rel=1e-9)
+    for side in SIDES:
+        derived = float(derived_slope(side).subs(numbers))
+        assert base_shear_slope(frame) == pytest.approx(derived, rel=1e-12)
+
+
+@EVERY_RATIO
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_uplift_begins_without_a_jump(ratio, sign):
+    frame, level = th.RockingFrame(COLUMN, ratio), sign * COLUMN.uplift_acceleration
+    rests, moves = (frame_forces(frame, CAP, 0.0, 0.0, level * (1 + d)) for d in (-1e-12, 1e-12))
+    for forces in (rests, moves):
+        assert forces.base_shear == pytest.approx(level, rel=1e-9)
+        height = centre_height(frame, CAP)
+        assert forces.overturning_moment == pytest.approx(level * height, rel=1e-9)
+    assert np.isnan(rests.bending_moment).all()
+
+
+@EVERY_RATIO
+def test_largest_forces_are_those_of_arcs_that_move_or_of_all_if_none_does(ratio):
+    frame = th.RockingFrame(COLUMN, ratio)
+    theta, rate, ground = 1e-3 * np.random.default_rng(3).normal(size=(3, 50, 3))
+    theta[:25], rate[:25], ground[:25] = 0.0, 0.0, 0.99 * COLUMN.uplift_acceleration
+    theta[25, 0] = 0.0  # one instant without rotation is not rest
+    for arcs, counted in ((slice(None), slice(25, None)), (slice(25), slice(25))):
+        whole = frame_forces(frame, CAP, *(each[counted] for each in (theta, rate, ground)))
+        bending = np.moveaxis(whole.bending_moment, 0, -1)
+        for row, step in zip(
+            largest_forces(frame, CAP, theta[arcs], rate[arcs], ground[arcs]), (1, 2), strict=True
+        ):
+            assert row.tolist() == [
+                np.nanmax(np.abs(force[:, ::step]), initial=0.0)
+                for force in (whole.base_shear, whole.overturning_moment, bending)
+            ]
+
+
+@EVERY_RATIO
+def test_clamped_frame_is_two_cantilevers_under_their_inertia(ratio):
+    """By hand: each column bears its own inertia at h and half that of the cap beam at 2h."""
+    record = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
+    column, beam = masses(ratio)
+    shear, overturning, bending = clamped_forces(th.RockingFrame(COLUMN, ratio), CAP, record)
+    peak = np.abs(record.acceleration).max()
+    assert shear == pytest.approx(peak, rel=1e-12)
+    height = 6.0 + CAP.half_depth
+    assert overturning == pytest.approx(peak * (2 * column * 3.0 + beam * height), rel=1e-12)
+    assert bending == pytest.approx(peak * (column * 3.0 + beam / 2 * 6.0), rel=1e-12)
