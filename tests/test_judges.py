@@ -4,11 +4,14 @@ import gzip
 import hashlib
 import json
 import shutil
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from documents import check
+from documents import check, publish
 from replication.sources import checksums
+from replication.step import findings_text
 from replication.verdicts import unexpected
 from tests.cases import ROOT, published
 
@@ -96,3 +99,69 @@ def test_claim_is_named_where_its_verdict_or_its_flag_is_another(verdict, differ
     row = {"id": "a", "file": "claims.yaml", "shown": "", "computed": True, "verdict": verdict}
     row |= {"differs": differs, "expected": "confirmed", "expected_differs": "sign"}
     assert len(unexpected([row])) == is_named
+
+
+@pytest.fixture
+def run(tree, monkeypatch):
+    """The results of a run that gave what is published, up to date as Snakemake says."""
+    for folder in (
+        "results/tables",
+        "results/findings",
+        "results/notebooks",
+        "results/certificates",
+    ):
+        Path(folder).mkdir(parents=True)
+    for name in ("figures", "paper"):  # of links
+        Path(name).unlink()
+        shutil.copytree(ROOT / name, name, ignore=shutil.ignore_patterns("*.svg", "*.pdf"))
+    for rule, content in published().items():
+        text = findings_text(content, publish.main)
+        Path(f"results/findings/{rule}.json").write_text(text, "utf-8")
+    publish.CLAIMS.write_text(json.dumps(check.published(published())), "utf-8")
+    for path in check.REFERENCE.iterdir():
+        shutil.copy(path, "results/tables" if path.suffix == ".csv" else "results")
+    for page in check.DOCS.glob("notebook_*.html"):
+        shutil.copy(page, f"results/notebooks/{page.name.removeprefix('notebook_')}")
+    for source, target in publish.copies().items():
+        if target.suffix == ".gz":
+            source.write_bytes(gzip.decompress(target.read_bytes()))
+        elif not source.exists():
+            shutil.copy(target, source)
+    said = SimpleNamespace(stdout="Nothing to be done", stderr="")
+    monkeypatch.setattr(publish.subprocess, "run", lambda *_, **__: said)
+    return said
+
+
+def test_what_is_published_is_the_run_with_its_checksums(run):
+    Path("tests/reference/old.csv").touch()
+    Path("results/explorer.html").write_text("another page", "utf-8")
+    before = check.SUMS.read_text("utf-8").splitlines()
+    publish.main()
+    changed = {line[66:] for line in {*check.SUMS.read_text("utf-8").splitlines()} - {*before}}
+    assert {path for path in changed if not path.endswith(".gz")} == {"docs/explorer.html"}
+    assert list(check.unsealed()) == []
+    assert not Path("tests/reference/old.csv").exists()
+    assert Path("docs/explorer.html").read_text("utf-8") == "another page"
+
+
+@pytest.mark.parametrize(
+    ("path", "old", "new", "message"),
+    [
+        ("results/claims.json", '"verdict": "confirmed"', '"verdict": "refuted"', "verdict of"),
+        ("results/settings.json", '"mass_ratio": 0.434', '"mass_ratio": 0.443', "config.yaml as"),
+        ("results/tables/friction_pulses.csv", "0.168595309", "0.5", "table that the run wrote"),
+        ("results/findings/vase.json", "0.2728", "0.2828", "what the tables of rule vase say"),
+        (None, "", "", "not up to date with this tree"),
+    ],
+)
+def test_a_run_that_did_not_judge_what_it_would_publish_is_refused(run, path, old, new, message):
+    if path:
+        text = Path(path).read_text("utf-8")
+        assert old in text
+        Path(path).write_text(text.replace(old, new, 1), "utf-8")
+    else:
+        run.stdout = "1 of 1 steps"
+    before = check.SUMS.read_bytes()
+    with pytest.raises(SystemExit, match=message):
+        publish.main()
+    assert check.SUMS.read_bytes() == before
