@@ -14,7 +14,11 @@ import topheavy as th
 from tests.cases import ROOT
 
 MODULES = [module.name for module in pkgutil.walk_packages(th.__path__, "topheavy.")]
-PUBLIC = [name for name in th.__all__ if callable(getattr(th, name))]
+PUBLIC = [
+    name
+    for name in th.__all__
+    if inspect.isfunction(getattr(th, name)) or inspect.isclass(getattr(th, name))
+]
 
 
 @pytest.mark.parametrize("name", MODULES)

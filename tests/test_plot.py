@@ -23,7 +23,7 @@ def _closed():
 
 def test_history_is_in_parts_of_alpha_with_its_impacts():
     response = topheavy.simulate(FRAME, Pulse("one-sine", 0.4, 6.0), samples=50)
-    axes = plot.history(response, FRAME)
+    axes = plot.history(response)
     line, impacts, *_ = axes.lines
     assert np.array_equal(line.get_ydata(), response.rotation / FRAME.slenderness)
     assert len(impacts.get_xdata()) == np.sum(response.impact_times <= response.time[-1]) > 0
@@ -62,6 +62,7 @@ def test_fragility_has_points_in_bands_of_exact_intervals():
 PULSE, SHAKING = Pulse("one-sine", 0.4, 6.0), Record(0.1, [0.0, 0.3, -0.2, 0.1])
 RESULTS = {
     "history": lambda: topheavy.simulate(FRAME, PULSE),
+    "forces": lambda: topheavy.contact_forces(FRAME, Cap(5, 0.4), RESULTS["history"](), PULSE),
     "map": lambda: topheavy.overturning_map(FRAME, "one-sine", [2.0, 4.0], [0.1, 0.3]),
     "spectrum": lambda: topheavy.overturning_spectrum([COLUMN, FRAME], "one-sine", [0.7, 0.3]),
     "rotations": lambda: topheavy.peak_rotations([COLUMN, FRAME], PULSE, [0.3, 0.2, 9.0]),
@@ -70,9 +71,6 @@ RESULTS = {
     "structure": lambda: FRAME,
 }
 OTHERS = {
-    "contact_forces": lambda: topheavy.contact_forces(
-        FRAME, Cap(5, 0.4), RESULTS["history"](), PULSE
-    ),
     "overturned_by": lambda: topheavy.overturned_by(FRAME, PULSE, [1.0, 2.0]),
     "a number": lambda: 3.0,
 }
@@ -86,24 +84,22 @@ def max_acceleration(motion):
 @pytest.mark.parametrize("result", RESULTS | OTHERS)
 def test_each_result_has_one_plot(function, result):
     value = (RESULTS | OTHERS)[result]()
-    extra = [FRAME] if function == "history" else []
     if function == result:
-        axes = getattr(plot, function)(value, *extra)
+        axes = getattr(plot, function)(value)
         assert axes.get_xlabel()
         assert axes.get_ylabel()
-        assert getattr(plot, function)(value, *extra, axes=axes) is axes
+        assert getattr(plot, function)(value, axes=axes) is axes
     else:
         hint = f"; plot.{result} draws this one" if result in set(RESULTS) - {"structure"} else ""
         says = "shown|structure is" if function == "structure" else f"expected the .*{hint}$"
         with pytest.raises(ValueError, match=says):
-            getattr(plot, function)(value, *extra)
+            getattr(plot, function)(value)
 
 
 @pytest.mark.parametrize("function", plot.__all__)
 def test_what_is_no_axes_is_refused(function):
-    arguments = [RESULTS[function](), *([FRAME] if function == "history" else [])]
     with pytest.raises(ValueError, match="expected Axes of Matplotlib"):
-        getattr(plot, function)(*arguments, axes=np.array([1]))
+        getattr(plot, function)(RESULTS[function](), axes=np.array([1]))
 
 
 def test_spectrum_tells_the_modes_apart_and_ascends():

@@ -127,7 +127,7 @@ CALLS = [
     call(th.fragility, **CURVES),
     call(th.contact_forces, structure=FRAME, cap=CAP, response=RESPONSE, motion=SHAKING),
     call(th.impact_impulses, frame=FRAME, cap=CAP, velocity=0.5),
-    call(th.plot.history, response=RESPONSE, structure=FRAME),
+    call(th.plot.history, response=RESPONSE),
     call(th.plot.structure, shown=FRAME, rotation=0.125, cap_width=5.0, cap_depth=0.5),
 ]
 ARGUMENTS = [(function, values, name) for function, values in CALLS for name in values]
@@ -161,8 +161,8 @@ def test_numbers_of_numpy_are_numbers(function, values, name):
 @each(lambda value: np.ndim(value) == 1)
 def test_masked_elements_are_refused(function, values, name):
     value = np.ma.masked_array(values[name], [True, *[False] * (len(values[name]) - 1)])
-    for masked in (value, list(value)):
-        with pytest.raises(ValueError, match="expected"):
+    for masked in (value, list(value), [value]):
+        with pytest.raises(ValueError, match="masked"):
             function(**values | {name: masked})
 
 

@@ -15,17 +15,20 @@ from topheavy import (
     Column,
     ContactForces,
     FactorInterval,
+    FiniteShape,
     FixedMassColumn,
     Fragility,
     LowestOverturning,
     MonolithicPortal,
     Outcome,
     Pulse,
+    PulseShape,
     Record,
     Response,
     RockingBlock,
     RockingFrame,
     Structure,
+    Structures,
     capacity,
     contact_forces,
     fragility,
@@ -90,7 +93,10 @@ strength = capacity(pier, measured)
 assert_type(capacity(bent, measured, np.geomspace(0.5, 5.0, 1000)), Capacity)
 assert_type(strength, Capacity)
 print(strength, strength.range, strength.over(0.1))
-minima = overturning_spectrum({"pier": pier, "bent": bent}, "one-sine", [1.0, 2.0])
+both: Structures = {"pier": pier, "bent": bent}
+shape: FiniteShape = "one-sine"
+any_shape: PulseShape = shape
+minima = overturning_spectrum(both, shape, [1.0, 2.0])
 print(minima["acceleration"].to_numpy())
 spectrum = overturning_map(bent, "one-cosine", np.linspace(1.0, 4.0, 3), [0.5, 1.0])
 print(spectrum.sizes["amplitude"], spectrum["overturned"].to_numpy().sum())
@@ -132,7 +138,8 @@ assert_type(measured.scaled_to(pgv=0.5), Record)
 assert_type(measured.time, NDArray[np.float64])
 assert_type(proven.certified(pier, pulse), dict[str, Any] | None)
 for axes in (
-    plot.history(frame_motion, bent),
+    plot.history(frame_motion),
+    plot.forces(forces_over_time),
     plot.map(spectrum),
     plot.fragility(curves),
     plot.spectrum(minima),

@@ -2,11 +2,19 @@ from . import plot, proven
 from .bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from .bodies.free_rocking import Outcome
 from .bodies.response import Response
-from .bodies.structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame, Structure
+from .bodies.structures import (
+    STANDARD_GRAVITY,
+    Column,
+    RockingBlock,
+    RockingFrame,
+    Structure,
+    Structures,
+)
 from .forces import Cap, ContactForces, contact_forces, impact_impulses
 from .ground.pulses import Pulse
 from .ground.reading import read_record
 from .ground.records import Record
+from .ground.shapes import FiniteShape, PulseShape
 from .outcomes.capacity import Capacity, capacity
 from .outcomes.minimum import LowestOverturning, lowest_overturning, overturning_spectrum
 from .outcomes.overturning import overturning_map
@@ -23,17 +31,20 @@ __all__ = [
     "Column",
     "ContactForces",
     "FactorInterval",
+    "FiniteShape",
     "FixedMassColumn",
     "Fragility",
     "LowestOverturning",
     "MonolithicPortal",
     "Outcome",
     "Pulse",
+    "PulseShape",
     "Record",
     "Response",
     "RockingBlock",
     "RockingFrame",
     "Structure",
+    "Structures",
     "capacity",
     "contact_forces",
     "fragility",

@@ -95,15 +95,18 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 def _refuse_masked(name: str, values: ArrayLike) -> None:
-    if isinstance(values, list | tuple):
-        masked = np.array([value is np.ma.masked for value in values])
-    else:
-        masked = np.ma.getmaskarray(np.ma.asarray(values))
-    if masked.any():
+    if masked := _masked(values):
         raise ValueError(
-            f"{name} has {masked.sum()} masked elements of {masked.size}; expected numbers: fill "
-            "the gaps before, or leave these elements out"
+            f"{name} has {masked} masked elements; expected numbers: fill the gaps before, or "
+            "leave these elements out"
         )
+
+
+def _masked(values: Any) -> int:
+    """Return the number of masked elements of an array or of lists of arrays."""
+    if isinstance(values, list | tuple):
+        return sum(map(_masked, values))
+    return int(np.ma.getmaskarray(values).sum()) if isinstance(values, np.ma.MaskedArray) else 0
 
 
 def axis_values(

@@ -43,7 +43,7 @@ from topheavy.bodies.structures import (
     checked_two_columns,
 )
 from topheavy.checks import short_repr
-from topheavy.ground.excitation import Excitation, checked_excitation
+from topheavy.ground.excitation import checked_excitation
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.shapes import SHAPES, WAVES
@@ -231,7 +231,7 @@ def _check_contacts(frame: object, cap: object) -> None:
 
 
 def contact_forces(
-    structure: RockingFrame, cap: Cap, response: Response, motion: Excitation | None = None
+    structure: RockingFrame, cap: Cap, response: Response, motion: Pulse | Record | None = None
 ) -> xarray.Dataset:
     """Return the forces at the four contacts of a frame in a response, normalised by its weight.
 
@@ -273,7 +273,7 @@ def contact_forces(
     {'base_left': 0.204, 'base_right': 0.212, 'top_left': 0.232, 'top_right': 0.242}
     >>> forces.vertical.min("time").to_series().round(3).to_dict()
     {'base_left': 0.385, 'base_right': 0.378, 'top_left': 0.227, 'top_right': 0.223}
-    >>> lines = forces.required_friction.plot(hue="contact")
+    >>> axes = th.plot.forces(forces)
     """
     import xarray
 
@@ -321,7 +321,7 @@ def contact_forces(
 
 
 def _times_of_forces(
-    structure: RockingFrame, response: Response, motion: Excitation | None
+    structure: RockingFrame, response: Response, motion: Pulse | Record | None
 ) -> Array:
     """Return the times of a response, of a record's samples, and beside the impacts, s."""
     beside = BESIDE_IMPACT / structure.frequency_parameter

@@ -15,14 +15,15 @@ from topheavy import checks
 from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.bodies.kinematics import outlines
 from topheavy.bodies.response import Response
-from topheavy.bodies.structures import RockingFrame, Structure, as_block
+from topheavy.bodies.structures import RockingFrame, Structure
 from topheavy.outcomes.capacity import Capacity
 from topheavy.risk.fragility import Fragility
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["capacity", "fragility", "history", "map", "rotations", "spectrum", "structure"]
+__all__ = ["capacity", "forces", "fragility", "history", "map"]
+__all__ += ["rotations", "spectrum", "structure"]
 
 
 def __dir__() -> list[str]:
@@ -37,22 +38,14 @@ MAX_SHOWN = 1.5
 """|θ|/α at which the picture of a history ends."""
 
 
-def history(
-    response: Response, structure: Structure, *, label: str = "", axes: Axes | None = None
-) -> Axes:
+def history(response: Response, *, label: str = "", axes: Axes | None = None) -> Axes:
     """Draw the rotation normalised by α against time (s), with the impacts; |θ| = α is dotted.
 
-    Parameters
-    ----------
-    response : Response
-    structure : Structure
-        Its slenderness is α.
-    label : str
-        For a legend; by default the outcome.
+    The label, for a legend, is by default the outcome.
     """
     _check_result("history", response)
-    axes, alpha = _axes(axes), as_block(structure).slenderness
-    (line,) = axes.plot(response.time, response.rotation / alpha, label=label or response.outcome)
+    axes, rotation = _axes(axes), response.rotation / response.slenderness
+    (line,) = axes.plot(response.time, rotation, label=label or response.outcome)
     shown = response.impact_times[response.impact_times <= response.time[-1]]
     axes.plot(shown, np.zeros(shown.size), "|", color=line.get_color())
     for limit in (-1.0, 1.0):
@@ -60,6 +53,21 @@ def history(
     axes.set(xlabel="Time, $t$ (s)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
     if np.abs(axes.get_ylim()).max() > MAX_SHOWN:
         axes.set_ylim(-MAX_SHOWN, MAX_SHOWN)
+    return axes
+
+
+def forces(result: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
+    """Draw the required friction of each contact over time (s), as `contact_forces` returns it.
+
+    Where a contact opens, its line has a gap.
+    """
+    _check_result("forces", result)
+    axes = _axes(axes)
+    for name in result.contact.to_numpy():
+        friction = result.required_friction.sel(contact=name)
+        axes.plot(result.time, friction, label=name.replace("_", " "))
+    axes.set(xlabel="Time, $t$ (s)", ylabel="Required coefficient of friction (–)")
+    axes.legend()
     return axes
 
 
@@ -237,6 +245,7 @@ def _check_result(function: str, result: object) -> None:
     is_rotations = getattr(result, "name", None) == "peak_rotation"
     drawn = {
         "history": ("Response, from simulate", isinstance(result, Response)),
+        "forces": ("Dataset of contact_forces", {"required_friction"} <= variables),
         "map": ("Dataset of overturning_map", {"peak_rotation", "overturned"} <= variables),
         "spectrum": ("Dataset of overturning_spectrum", {"after_impact"} <= variables),
         "rotations": ("DataArray of peak_rotations", is_rotations),

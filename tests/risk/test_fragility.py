@@ -178,3 +178,9 @@ def test_text_says_why_there_is_no_median(levels, reason):
     motions = [wave(number) for number in range(20)]
     result = th.fragility({"pier": PIER}, motions, levels, resamples=100)
     assert f"pier: median unknown: {reason}" in str(result)
+
+
+def test_text_says_why_an_end_is_unknown():
+    motions = [wave(number) for number in range(20)]
+    result = th.fragility({"pier": PIER}, motions, np.linspace(0.4, 0.56, 5), resamples=100)
+    assert re.search(r"median 0\.\d+ \(unknown to unknown\) m/s\nunknown ends: too", str(result))

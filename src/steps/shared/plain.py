@@ -128,6 +128,7 @@ def simulate(
         outcome="overturned" if motion.overturned[0] else outcome,
         number_of_impacts=int(motion.hits[0]),
         peak_rotation=float(motion.peak[0]),
+        slenderness=block.slenderness,
     )
 
 

@@ -44,6 +44,8 @@ class Response:
         with the last sample that is not zero.
     peak_rotation : float
         max|θ| in rad, including the free rocking after the forcing; NaN if overturned.
+    slenderness : float
+        α of the structure, rad.
 
     Examples
     --------
@@ -59,6 +61,7 @@ class Response:
     outcome: EndState
     number_of_impacts: int
     peak_rotation: float
+    slenderness: float
 
     @property
     def overturned(self) -> bool:

@@ -197,10 +197,11 @@ def capacity(
     (2.92, [2.88, 3.9])
     >>> axes = th.plot.capacity(result, label="pier", axes=axes)
     """
-    block, motion = as_block(structure), checked_excitation(record, ends=True)
+    block = as_block(structure)
+    checked_excitation(record, ends=True)
 
     def outcomes(some: NDArray[np.float64]) -> NDArray[np.bool_]:
-        return overturned_by(block, motion, some, vertical=vertical, scale_vertical=scale_vertical)
+        return overturned_by(block, record, some, vertical=vertical, scale_vertical=scale_vertical)
 
     peak = checks.positive("peak acceleration of the record", record.peak_acceleration)
     if factors is not None:
@@ -211,7 +212,7 @@ def capacity(
     last = MAX_OVER_UPLIFT * first
     if vertical is not None:
         first *= 0.1  # it uplifts earlier while the ground falls
-        fall = -float(both_records(motion, vertical)[1].acceleration.min())
+        fall = -float(both_records(record, vertical)[1].acceleration.min())
         if scale_vertical and fall * last >= 1.0:
             last = 0.999 / fall  # beyond, it would lose contact
     grid = first * GROWTH ** np.arange(math.log(last / first) / math.log(GROWTH))

@@ -55,7 +55,7 @@ class Case(NamedTuple):
 
 def overturned_by(
     structure: Structures,
-    excitation: Excitation,
+    excitation: Pulse | Record,
     factors: ArrayLike,
     *,
     tolerance: float = TOLERANCE,
@@ -212,7 +212,7 @@ class FactorInterval:
 
 def overturning_intervals(
     structure: Structure,
-    excitation: Excitation,
+    excitation: Pulse | Record,
     scale_range: tuple[float, float],
     *,
     resolution: float,

@@ -57,7 +57,7 @@ _END_STATES: dict[int, EndState] = {
 
 def simulate(
     structure: Structure,
-    excitation: Excitation | None = None,
+    excitation: Pulse | Record | None = None,
     *,
     rotation: float = 0.0,
     velocity: float = 0.0,
@@ -163,12 +163,13 @@ def simulate(
         outcome=outcome,
         number_of_impacts=history.impacts,
         peak_rotation=math.nan if outcome == "overturned" else history.peak,
+        slenderness=block.slenderness,
     )
 
 
 def judge(
     structure: Structure,
-    excitation: Excitation,
+    excitation: Pulse | Record,
     *,
     tolerance: float = TOLERANCE,
     vertical: Record | None = None,

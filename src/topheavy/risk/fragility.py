@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas
@@ -16,6 +16,7 @@ from scipy.stats import beta, binomtest
 
 from topheavy import checks
 from topheavy.bodies.structures import Structures, named_blocks
+from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.outcomes.search import peaks_and_outcomes
 from topheavy.risk import inputs
@@ -100,14 +101,15 @@ class Fragility:
         lines = [f"{motions}, {scaled}; {self.confidence:.0%} intervals, {self.sampling}"]
         for place in range(self.curves.sizes["structure"]):
             row = self.curves.isel(structure=place)
-            median = _line(row, "median_capacity", unit)
-            if np.isnan(row.median_capacity):
-                median = f"unknown: {self._why_no_median(row)}"
+            why = self._why_no_median(row) if np.isnan(row.median_capacity) else ""
+            median = _line(row, "median_capacity", unit, why)
             lines.append(f"{row.structure.item()}: median {median}")
         for place in range(self.pairs.sizes["pair"]):
             row = self.pairs.isel(pair=place)
             both = f"{row['second'].item()} over {row['first'].item()}"
-            lines.append(f"{both}: gain {_line(row, 'gain', '')}")
+            lines.append(f"{both}: gain {_line(row, 'gain', '', 'a median is')}")
+        if any("(unknown to" in line or "to unknown)" in line for line in lines):
+            lines.append("unknown ends: too many resamples have no median; add levels or motions")
         return "\n".join(lines)
 
     def _why_no_median(self, row: xarray.Dataset) -> str:
@@ -133,17 +135,19 @@ class Fragility:
         return f"the fitted curve rises past 1/2 at {median:.3g}, outside the levels; add some"
 
 
-def _line(row: xarray.Dataset, name: str, unit: str) -> str:
-    """Return a value with its interval and unit."""
-    value, low, high = (float(row[part]) for part in (name, f"{name}_low", f"{name}_high"))
-    return f"{value:.3g} ({low:.3g} to {high:.3g}) {unit}".strip()
+def _line(row: xarray.Dataset, name: str, unit: str, why_unknown: str) -> str:
+    """Return a value with its interval and unit, or why it is NaN."""
+    values = (float(row[part]) for part in (name, f"{name}_low", f"{name}_high"))
+    value, low, high = ("unknown" if math.isnan(x) else f"{x:.3g}" for x in values)
+    interval = f"{value} ({low} to {high}) {unit}".strip()
+    return f"unknown: {why_unknown}" if value == "unknown" else interval
 
 
 def fragility(
     structures: Structures,
-    motions: Sequence[inputs.Motion],
+    motions: Sequence[Pulse | Record],
     levels: ArrayLike,
-    measure: inputs.Measure = "PGV",
+    measure: Literal["PGV", "PGA"] | Callable[[Any], float] = "PGV",
     *,
     vertical: Sequence[Record] | None = None,
     scale_vertical: bool = True,
@@ -243,7 +247,7 @@ def fragility(
         for name, value in (("skewed", skewed), ("scale_vertical", scale_vertical))
     )
 
-    def outcomes_of(motion: inputs.Motion, up: Record | None, factors: Array) -> Outcomes:
+    def outcomes_of(motion: Pulse | Record, up: Record | None, factors: Array) -> Outcomes:
         peaks, overturned = peaks_and_outcomes(
             [*blocks.values()], motion, factors, vertical=up, scale_vertical=scale_vertical
         )
