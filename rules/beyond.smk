@@ -38,7 +38,6 @@ rule motions:
         probabilities=report(
             "results/tables/motions.csv", caption="report.rst", category="Tables"
         ),
-        sensitivity="results/tables/motions_sensitivity.csv",
         gains=report(
             "results/tables/motions_gains.csv", caption="report.rst", category="Tables"
         ),

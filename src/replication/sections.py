@@ -240,7 +240,7 @@ Paper = section(
             )
         ],
         velocity=Positive,
-        changes=Items[Fraction],
+        change=Fraction,
         rotations=section("velocities", motions=Count),
         intensities=Grid,
         largest_factor=Positive,

@@ -111,17 +111,18 @@ def row(name, way, share, ensemble, column, frame):
 
 
 def sampled(samples, settings, motions, column):
-    """Yield a seeded sample of the outcomes, half of them beside a boundary."""
+    """Yield outcomes under a random motion of each set, half of them beside a boundary."""
     random = np.random.default_rng(settings["bootstrap"]["seed"])
     question, motions_of = restitution_question(motions, settings, column), models(motions)
-    for number in range(settings["sample"]):
-        name = [*samples][number % len(samples)]
-        at, place, level = (int(random.integers(size)) for size in samples[name].shape)
-        record, block = motions_of[name][at].record(), question.blocks[place]
-        factor = question.velocities[level] / record.peak_velocity
-        if random.integers(2):
-            factor = beside_a_boundary(partial(overturns, block, record, None), factor)
-        yield block, record, None, factor, samples[name][at, place, level]
+    for name, fell in samples.items():
+        at = int(random.integers(len(fell)))
+        record = motions_of[name][at].record()
+        for _ in range(settings["sample"]):
+            place, level = (int(random.integers(size)) for size in fell[at].shape)
+            block, factor = question.blocks[place], question.factors(record)[level]
+            if random.integers(2):
+                factor = beside_a_boundary(partial(overturns, block, record, None), factor)
+            yield block, record, None, factor, fell[at, place, level]
 
 
 def findings(break_even, break_even_benefit, settings):

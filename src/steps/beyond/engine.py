@@ -23,7 +23,7 @@ NO_REBOUND = 0.2  # coefficient of restitution of a point, below which a contact
 HARD = 0.01  # normalised by 1/p: time constant up to which a contact is hard
 FRICTION = 1.0  # of the contacts of a release
 STEPS_IN_CONTACT = 4  # time steps in the time constant, or in the period of a stiffer contact
-BELOW = 3  # steps below the minimum in theory: where the first amplitude that overturns is sought
+BELOW = 1  # steps below a known minimum: from where the first amplitude that overturns is sought
 IN_PLANE, ACROSS = 0.0, 90.0  # degrees
 COLUMN, FIXED, IN_LINE, SLAB = "column", "fixed mass", "two in line", "2 × 2"
 LABELS = "structure", "direction", "section", "depth_over_width", "mass_ratio", "frequency_ratio"
@@ -140,7 +140,8 @@ def across(settings, structures):
     """Return the first amplitudes that overturn in the plane and across it.
 
     They are over the minimum of the square column in theory, as are the uplift acceleration by hand
-    and the minimum in theory, which is not known for round columns and oblique directions.
+    and the minimum in theory, which is not known for round columns and oblique directions. There
+    they are sought from just below the column's own in the same direction, if it is known.
     """
     spec, free = settings["across"], [(IN_LINE, IN_PLANE), (IN_LINE, ACROSS), (SLAB, IN_PLANE)]
     frequency, (light, *_, heavy) = spec["frequency_ratios"][0], spec["mass_ratios"]
@@ -163,10 +164,15 @@ def across(settings, structures):
     cases += [((*one, "round", 1.0, light, frequency), {}) for one in free]
     again = [row for row in square if row[4:] == (heavy, frequency)]
     cases += product(again, spec["checks"])
-    return pd.DataFrame(first(*case, settings, structures) for case in cases)
+    rows, of_column = [], {}
+    for row, changed in cases:
+        rows.append(first(row, changed, of_column.get(row[1], 0.0), settings, structures))
+        if row[0] == COLUMN:
+            of_column[row[1]] = rows[-1]["engine"]
+    return pd.DataFrame(rows)
 
 
-def first(row, changed, settings, structures):
+def first(row, changed, of_column, settings, structures):
     spec, (name, direction, section, depth, gamma, ratio) = settings["across"], row
     column = Column(**structures[spec["structure"]])
     cap = cap_of(settings["caps"][spec["structure"]])
@@ -188,10 +194,10 @@ def first(row, changed, settings, structures):
         **solver,
     )
     uplift, step = theory.uplift_acceleration / alone.amplitude, spec["step"]
-    expected, begin = math.nan, uplift
+    expected = math.nan
     if section == "square" and direction in (IN_PLANE, ACROSS):
         expected = minimum(theory, kind, column).amplitude / alone.amplitude
-        begin = max(uplift, expected - BELOW * step)
+    begin = max(uplift, np.nan_to_num(expected, nan=of_column) - BELOW * step)
     factors = step * np.arange(math.floor(begin / step), math.ceil(HIGHEST / step))
     lowest = next(f for f in factors if overturns(bodies, alone.scaled(f), direction))
     message = f"{row}, {changed}: from {lowest:.2f} on; expected {expected:.3f} within a step"

@@ -96,18 +96,17 @@ def compared(settings: Settings, column: Column) -> list[RockingBlock]:
 
 
 def stated(settings: Settings, column: Column) -> Question:
-    """Return the compared structures, and the stated velocity with small changes of it."""
-    changes = np.array([0.0, *settings["changes"]])
-    return Question(compared(settings, column), settings["velocity"] * (1.0 + changes))
+    """Return the compared structures, the stated velocity, and a little more than it."""
+    velocities = settings["velocity"] * np.array([1.0, 1.0 + settings["change"]])
+    return Question(compared(settings, column), velocities)
 
 
 def frames(settings: Settings, column: Column) -> Question:
-    """Return the column (γ = 0), its frames and the column with a fixed mass, and velocities."""
+    """Return the column (γ = 0) and its frames, and velocities."""
     spec, gammas = settings["intensities"], [0.0, *settings["mass_ratios"]]
     unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter  # m/s
     grid = unit * geometric(spec)
-    blocks = [RockingFrame(column, gamma).block() for gamma in gammas]
-    return Question([*blocks, compared(settings, column)[1]], grid)
+    return Question([RockingFrame(column, gamma).block() for gamma in gammas], grid)
 
 
 def reductions(break_even: Settings) -> NDArray[np.float64]:
@@ -174,7 +173,9 @@ def sweep(
     number, of = map(int, shard.split("-of-"))
     columns = {name: Column(**structures[name]) for name in settings["structures"]}
     column, spec = columns[settings["structure"]], settings["rotations"]
-    tilted = Question(frames(settings, column).blocks[:-1], np.array(spec["velocities"]))
+    tilted = Question(frames(settings, column).blocks, np.array(spec["velocities"]))
+    by_name = {name: frames(settings, one) for name, one in columns.items()}
+    by_name[settings["structure"]].blocks.append(compared(settings, column)[1])  # fixed mass
     arrays: dict[str, Any] = {}
     for model, motions in models(settings).items():
         count, in_set = len(motions), model in sets(settings)
@@ -182,8 +183,8 @@ def sweep(
         questions = [(model, stated(settings, column), overturned, count)]
         if not model.endswith(VERTICAL):
             questions += [
-                (f"{model}: {name}", frames(settings, one), overturned, fewer)
-                for name, one in columns.items()
+                (f"{model}: {name}", question, overturned, fewer)
+                for name, question in by_name.items()
             ]
         if in_set:
             lowered = restitution_question(settings, break_even, column)
