@@ -1,6 +1,8 @@
 """README's numbers, the published tables and the claims agree; the paper comes first."""
 
 import re
+from collections import Counter
+from html import unescape
 
 import pandas as pd
 import pytest
@@ -140,3 +142,21 @@ def test_capacities_of_readme_are_those_of_the_study():
         numbers += [over[0], min(over), max(over)]
     stated = re.search(r"El Centro.* in it", README, re.DOTALL)[0]
     assert [f"{number:.1f}" for number in numbers] == re.findall(r"\d+\.\d+", stated)
+
+
+@pytest.mark.parametrize("name", ["paper", "play"])
+def test_published_notebook_prints_what_its_cells_do(name, monkeypatch, capsys):
+    monkeypatch.chdir(ROOT / "notebooks")
+    monkeypatch.setattr("IPython.display.display", show := lambda one, **_: print(one))
+    names = {"display": show}
+    for cell in read_yaml(f"{name}.ipynb")["cells"]:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), names)
+    page = unescape((ROOT / f"docs/notebook_{name}.html").read_text("utf-8"))
+    shown = re.findall('(?s)data-mime-type="text/(?:plain|html)".*?</(?:pre|table)>', page)
+    ours, theirs = (
+        Counter(re.findall(r"\d+\.\d+(?:e-?\d+)?", re.sub("<[^>]*>", " ", text)))
+        for text in (capsys.readouterr().out, " ".join(shown))
+    )
+    assert ours.total() > 10
+    assert ours == theirs

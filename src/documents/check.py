@@ -2,7 +2,7 @@
 
 Files have the checksums of docs/SHA256SUMS. Parameters are those of config/config.yaml. Findings
 are drawn again from the tables by the steps that drew them, every claim is judged again, and
-verdicts and the page to play with are written again. Certificates are verified by their program.
+verdicts, both pages and the animation are made again. Certificates are verified by their program.
 """
 
 import csv
@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.claims import read_claims
-from replication.config import read_config, read_yaml
+from replication.config import components, read_config, read_yaml
 from replication.sections import Paper
 from replication.sources import checksums
 from replication.step import call
@@ -100,19 +100,25 @@ def _parts(content: Any) -> Iterator[Any]:
             yield from _parts(part)
 
 
-def rewritten(rows: list[dict[str, Any]]) -> Iterator[str]:
-    """Yield each page that another one comes of, from the published tables."""
-    from documents import lists
-    from documents.explorer import compute
+def rewritten(rows: list[dict[str, Any]], *names: str) -> Iterator[str]:
+    """Yield each page, of all or of some names, that another one comes of, from what there is."""
+    from documents import animation, explorer, functions, lists
 
+    config, style = read_config("config/config.yaml", Paper), "figures/style.mplstyle"
+    film = config["animation"], config["structures"]["temple"]
+    record = "data/records/el_centro_1940_NS.AT2"
+    records, _ = components("data/records")
     run = lists.Run(rows, read_yaml("figures/captions.yaml"))
     pages = {
-        "verdicts.md": lists.claims(run, lists.Docs()),
-        "explorer.html": compute("data/records/el_centro_1940_NS.AT2")["page"],
+        "verdicts.md": lambda: lists.claims(run, lists.Docs()),
+        "explorer.html": lambda: explorer.compute(record)["page"],
+        "functions.html": lambda: functions.compute(style, records)["page"],
+        "animation.gif": lambda: animation.compute(*film, style)["gif"],
     }
-    for name, text in pages.items():
+    for name in names or pages:
+        made = pages[name]()
+        lines = (made.encode() if isinstance(made, str) else made).split(b"\n")
         shown = (DOCS / name).read_bytes().split(b"\n")
-        lines = text.encode().split(b"\n")
         if shown != lines:
             pairs = zip([*shown, b""], [*lines, b""], strict=False)
             at = next((k for k, (one, other) in enumerate(pairs, 1) if one != other), len(lines))
