@@ -15,9 +15,9 @@ const sizeOf = (place) => ({ width: Math.max(120, place.clientWidth), height: Ma
 /** Keep a chart as large as its place. `chart` returns it, or nothing as long as there is none. */
 const fit = (chart, place) => new ResizeObserver(() => setTimeout(() => chart()?.setSize(sizeOf(place)))).observe(place);
 
-/** One history over time, with a line at the time that is shown; a press moves that time. */
+/** One history over time, with a line at the time that is shown. */
 class Strip {
-  constructor(place, { label, last, seek, band }) {
+  constructor(place, { label, last, band }) {
     Object.assign(this, { range: [-1, 1], levels: [] });
     this.chart = new uPlot({
       ...sizeOf(place), legend: { show: false }, padding: [6, 8, last ? 0 : 6, 0],
@@ -30,14 +30,8 @@ class Strip {
       series: [{}, { stroke: () => colour("ink"), width: 1.5, spanGaps: false }],
       hooks: { drawClear: [(u) => this.shade(u, band)] },
     }, [[0, 1], [0, 0]], place);
-    this.curtain = made("div", { class: "curtain" });
     this.head = made("div", { class: "playhead" });
-    this.chart.over.append(this.curtain, this.head);
-    const move = (event) => {
-      if (event.buttons === 1) seek(this.chart.posToVal(event.clientX - this.chart.over.getBoundingClientRect().left, "x"));
-    };
-    this.chart.over.addEventListener("pointerdown", move);
-    this.chart.over.addEventListener("pointermove", move);
+    this.chart.over.append(this.head);
     fit(() => this.chart, place);
   }
 
@@ -65,32 +59,43 @@ class Strip {
     this.chart.setData([times, values]);
   }
 
-  /** Mark a time, and hide what comes after the time that was seen. */
-  at(time, seen) {
-    const move = (element, to) => (element.style.transform = `translateX(${this.chart.valToPos(to, "x")}px)`);
-    move(this.head, time);
-    move(this.curtain, Math.min(seen, 2 * this.chart.scales.x.max));
+  /** Mark a time. */
+  at(time) {
+    this.head.style.transform = `translateX(${this.chart.valToPos(time, "x")}px)`;
   }
 }
 
-/** The border of the cells whose code has a bit: an edge for each two neighbours that differ. */
-function border(codes, columns, rows, bit) {
-  const path = new Path2D(), has = (i, j) => codes[i + columns * j] & bit;
-  const edge = (...ends) => (path.moveTo(...ends.slice(0, 2)), path.lineTo(...ends.slice(2)));
-  for (let i = 0; i < columns; i++) {
-    for (let j = 0; j < rows; j++) {
-      if (i + 1 < columns && has(i, j) !== has(i + 1, j)) edge(i + 1, j, i + 1, j + 1);
-      if (j + 1 < rows && has(i, j) !== has(i, j + 1)) edge(i, j + 1, i + 1, j + 1);
+/** The area in which a structure overturns, and its border, through the crossings between cells. */
+function areaOf({ codes, crossings, columns, rows }, bit) {
+  const fill = new Path2D(), line = new Path2D();
+  const within = (k, most) => Math.min(most - 1, Math.max(0, k)), at = ([i, j]) => within(i, columns) + columns * within(j, rows);
+  const middle = (k, most) => Math.min(most, Math.max(0, k + 0.5)), place = ([i, j]) => [middle(i, columns), middle(j, rows)];
+  for (let i = -1; i < columns; i++) {
+    for (let j = -1; j < rows; j++) {
+      const corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]], isIn = corners.map((corner) => codes[at(corner)] & bit);
+      const outline = [], ends = [];
+      corners.forEach((corner, n) => {
+        const other = corners[(n + 1) % 4], [first, last] = n < 2 ? [corner, other] : [other, corner]; // to the right, or up
+        if (isIn[n]) outline.push(place(corner));
+        if (isIn[n] === isIn[(n + 1) % 4]) return;
+        const share = crossings ? crossings[crossingAt(codes, at(first), bit, n % 2)] : 0.5, to = place(last);
+        ends.push(place(first).map((from, axis) => from + share * (to[axis] - from)));
+        outline.push(ends.at(-1));
+      });
+      outline.forEach((point, n) => (n ? fill.lineTo(...point) : fill.moveTo(...point)));
+      fill.closePath();
+      if (!isIn[0] && ends.length) ends.push(ends.shift()); // a line leads from where the outline leaves the area to where it is back
+      ends.forEach((point, n) => (n % 2 ? line.lineTo(...point) : line.moveTo(...point)));
     }
   }
-  return path;
+  return { fill, line };
 }
 
 /** The map of overturning: which of two structures overturn, their boundaries, and where the state is. */
 class Spectrum {
   constructor(place, pick) {
     const here = made("div", { class: "here" }, made("span", {}, "you are here"));
-    Object.assign(this, { place, pick, here, image: made("canvas") });
+    Object.assign(this, { place, pick, here });
     fit(() => this.chart, place);
     place.addEventListener("keydown", (event) => {
       const [right, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key] ?? [];
@@ -142,39 +147,39 @@ class Spectrum {
   }
 
   /** Take the outcomes of the plane's cells, row by row from the lowest amplitude up, unless they are of another plane. */
-  outcomes({ keys, codes, columns, rows }) {
+  outcomes({ keys, codes, crossings, columns, rows }) {
     if (keys[0] !== this.keys?.[0]) return;
-    const solid = border(codes, columns, rows, FRAME_FALLS), dotted = border(codes, columns, rows, COLUMN_FALLS);
-    this.cells = { codes, columns, rows, lines: [[solid, 1.5, []], [dotted, 2.8, [0, 99]]] }; // a dot for each edge
-    this.recolour();
-  }
-
-  recolour() {
-    if (!this.cells) return;
-    const { codes, columns, rows } = this.cells;
-    const palette = ["paper", "prevented", "caused", "both"].map(colour).map((hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16))); // by codes
-    Object.assign(this.image, { width: columns, height: rows });
-    const context = this.image.getContext("2d"), pixels = context.createImageData(columns, rows);
-    codes.forEach((code, k) => pixels.data.set([...palette[code], 255], 4 * ((k % columns) + columns * (rows - 1 - Math.floor(k / columns)))));
-    context.putImageData(pixels, 0, 0);
+    const [column, frame] = [COLUMN_FALLS, FRAME_FALLS].map((bit) => areaOf({ codes, crossings, columns, rows }, bit));
+    this.cells = { codes, crossings, columns, rows, fills: [column.fill, frame.fill], lines: [[frame.line, 1.5, []], [column.line, 2.8, [0, 99]]] }; // a dot for each cell
     this.chart?.redraw(false, false);
   }
 
   paint({ ctx, bbox }) {
     if (!this.cells) return;
-    const { columns, rows, lines } = this.cells;
+    const { columns, rows, fills, lines } = this.cells;
+    const scaled = new DOMMatrix([bbox.width / columns, 0, 0, -bbox.height / rows, bbox.left, bbox.top + bbox.height]);
+    const onChart = (path) => {
+      const scaledPath = new Path2D();
+      scaledPath.addPath(path, scaled);
+      return scaledPath;
+    };
+    const [column, frame] = fills.map(onChart);
+    const paint = (name, path) => (ctx.fillStyle = colour(name), ctx.fill(path));
     ctx.save();
-    ctx.imageSmoothingEnabled = false;
-    ctx.drawImage(this.image, bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.fillStyle = colour("paper");
+    ctx.fillRect(bbox.left, bbox.top, bbox.width, bbox.height);
+    paint("prevented", column);
+    paint("caused", frame);
+    ctx.save();
+    ctx.clip(column);
+    paint("both", frame);
+    ctx.restore();
     ctx.strokeStyle = colour("ink");
     ctx.lineCap = "round";
-    const scaled = new DOMMatrix([bbox.width / columns, 0, 0, -bbox.height / rows, bbox.left, bbox.top + bbox.height]);
     for (const [line, width, dash] of lines) {
-      const path = new Path2D();
-      path.addPath(line, scaled);
       ctx.lineWidth = width * devicePixelRatio;
       ctx.setLineDash(dash);
-      ctx.stroke(path);
+      ctx.stroke(onChart(line));
     }
     ctx.restore();
   }

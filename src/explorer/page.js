@@ -13,7 +13,6 @@ let found = null; // the histories that are shown
 let awaited = {}; // the record that the address names and the page has not, and the factor on it
 let opened = 0; // how many files
 let time = 0, isPlaying = false, wantsToPlay = true, before = 0;
-let seen = Infinity; // the latest time of the film that was shown; what happens later is hidden
 
 const round = (number, digits = 3) => (Number.isNaN(number) ? "–" : number === Infinity ? "∞" : String(Number(number.toPrecision(digits))));
 
@@ -73,8 +72,7 @@ function progress(share) {
 
 const controls = new Controls(change, open);
 const scene = new Scene(byId("scene"));
-const seek = (to) => (pause(), show(to));
-const strips = ["history0", "history1", "history2", "ground"].map((id, k) => new Strip(byId(id), { label: k < 3 ? "θ/α" : "g", last: k > 1, seek, band: k < 3 }));
+const strips = ["history0", "history1", "history2", "ground"].map((id, k) => new Strip(byId(id), { label: k < 3 ? "θ/α" : "g", last: k > 1, band: k < 3 }));
 const spectrumChart = new Spectrum(byId("spectrum"), pick);
 
 /** Show new histories: charts, numbers, outcome and the pose at the present time. */
@@ -93,25 +91,20 @@ function receive(answer) {
   byId("ground").setAttribute("aria-label", `Ground acceleration over time, peak ${round(answer.peak)} g`);
   scene.build(state, found, NARROW.matches);
   table(structures);
-  said = "";
+  tellOutcomes(structures);
   show(time);
   document.documentElement.dataset.shown = answer.id; // of the state that was asked about
 }
 
 const word = (of) => (of.leaves ? "outside" : of.overturned ? "overturns" : "survives");
 const outcome = (of) => (of.leaves ? "leaves the ground, outside the model" : of.overturned ? "overturns" : of.moved ? "survives" : "does not uplift");
-let said = ""; // the outcomes that are shown
 
-/** Show the outcomes that the film has reached; the others stay open. */
-function tellOutcomes() {
-  const { structures } = found, words = structures.map((of) => (seen >= of.known ? word(of) : "open"));
-  if (said === String(words)) return;
-  said = String(words);
-  const texts = structures.map((of, k) => `<span class="${words[k]}-word">${words[k] === "open" ? "…" : outcome(of)}</span>`);
+/** Show the outcomes, before the film and the map. */
+function tellOutcomes(structures) {
+  const texts = structures.map((of) => `<span class="${word(of)}-word">${outcome(of)}</span>`);
   structures.forEach((of, k) => (byId(`caption${k}`).innerHTML = `${TITLES[of.name]} ${texts[k]}${k ? "" : " <small>rotation θ: at ±α, gravity no longer brings it back</small>"}`));
-  byId("verdict").innerHTML = `Planar motion: ${structures.map((of, k) => `${of.name} ${texts[k]}`).filter((_, k) => k !== 1 || state.vase === "shown").join(", ")}`;
-  byId("note").style.visibility = words.includes("open") ? "hidden" : "visible"; // it tells the outcome
-  scene.outcomes(words);
+  byId("verdict").innerHTML = structures.map((of, k) => `The ${of.name} ${texts[k]}`).filter((_, k) => k !== 1 || state.vase === "shown").join(", ").replaceAll(", The", ", the");
+  scene.outcomes(structures.map(word));
 }
 
 const cellsOfRow = (k) => Array.from({ length: 9 }, (_, i) => made("td", i === 2 ? { id: `minimum${k}` } : {}));
@@ -134,14 +127,12 @@ function show(t) {
   if (!found) return;
   const { times, structures, ground, displacement, peak } = found, until = times[times.length - 1];
   time = Math.min(until, Math.max(0, t));
-  seen = Math.max(seen, time);
   const at = (time / until) * (times.length - 1), k = Math.min(times.length - 2, Math.floor(at)), rest = at - k;
   const between = (values) => values[k] + rest * (values[k + 1] - values[k]);
   const isFlat = (of) => time >= of.flatAt || Number.isNaN(of.theta[k + 1]), last = (of) => of.theta.findLast((theta) => !Number.isNaN(theta));
   const poses = structures.map((of) => (isFlat(of) ? (Math.sign(last(of)) * Math.PI) / 2 : between(of.theta)));
   scene.pose(poses, between(displacement), peak ? between(ground) / Math.max(peak, structures[0].uplift) : 0);
-  strips.forEach((strip, k) => strip.at(time, k < 3 ? seen : Infinity));
-  tellOutcomes();
+  strips.forEach((strip) => strip.at(time));
   byId("time").value = (1000 * time) / until;
   byId("time").setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
   byId("clock").textContent = `${time.toFixed(2)} s`;
@@ -171,19 +162,9 @@ function tick(now) {
   else requestAnimationFrame(tick);
 }
 
-const moveBy = (steps) => seek(time + 0.02 * steps); // s
 byId("toggle").addEventListener("click", () => (isPlaying ? (pause(), wantsToPlay = false) : play()));
 byId("start").addEventListener("click", () => (show(0), isPlaying || play()));
-byId("back").addEventListener("click", () => moveBy(-1));
-byId("step").addEventListener("click", () => moveBy(1));
-byId("time").addEventListener("input", () => found && seek((Number(byId("time").value) / 1000) * found.times.at(-1)));
-addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("input, select, button, summary, pre, .scroll")) return;
-  const does = { " ": () => byId("toggle").click(), ",": () => moveBy(-1), ".": () => moveBy(1), Home: () => seek(0) }[event.key];
-  if (!does) return;
-  event.preventDefault();
-  does();
-});
+byId("time").addEventListener("input", () => found && (pause(), show((Number(byId("time").value) / 1000) * found.times.at(-1))));
 
 // Changes of the state ------------------------------------------------------------------------------
 
@@ -206,7 +187,6 @@ let isUpdating = false, rested = 0;
 
 /** Show the controls of the state at once, and the rest with the next picture of the screen. */
 function update() {
-  seen = Infinity;
   progress(0);
   for (const cell of document.querySelectorAll('[id^="minimum"]')) {
     cell.textContent = "…"; // the last number is of another state
@@ -246,7 +226,7 @@ const keep = () => ["replaceState", "pushState"].forEach((place) => history[plac
 /** Play the film of the state from its beginning, as soon as it is there. */
 function begin() {
   pause();
-  time = seen = 0;
+  time = 0;
   if (found && document.documentElement.dataset.shown === encode(state)) play();
   else setTimeout(() => wantsToPlay && !isPlaying && begin(), 20);
 }
@@ -319,13 +299,18 @@ DATA.cases.forEach((each) => {
   });
   byId("cases").append(button);
 });
+byId("copy").addEventListener("click", () => {
+  settle();
+  const done = () => (byId("copy").textContent = "Copied");
+  navigator.clipboard.writeText(location.href).then(done, () => prompt("The address of this case", location.href));
+});
 addEventListener("hashchange", () => location.hash.slice(1) !== encode(state) && readAddress());
 addEventListener("resize", () => {
   scene.measure();
   if (!isUpdating) requestAnimationFrame(redraw);
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-  spectrumChart.recolour();
+  spectrumChart.chart.redraw(false, false);
   strips.forEach((strip) => strip.chart.redraw());
 });
 readAddress();

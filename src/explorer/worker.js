@@ -6,7 +6,7 @@
 
 const CAP_DEPTH = 0.2; // of h: as drawn; the friction of a frame depends on it, its motion does not
 const SAMPLES = 1500;
-const GRIDS = { pulse: [96, 64], record: [48, 36] }; // cells of the map
+const GRIDS = { pulse: [80, 60], record: [48, 36] }; // cells of the map
 
 /** What a cell of the map holds: the sum of those that overturn. */
 const [COLUMN_FALLS, FRAME_FALLS] = [1, 2];
@@ -72,10 +72,8 @@ function histories(state, file) {
   const structures = blocks.map((block) => {
     const found = rock(block, motion, { ...startOf(state, block, a), until });
     const theta = sample(found, times);
-    // From when on the outcome is known: it is beyond α for good, or the ground is at rest again.
-    const known = found.overturned ? times[Math.min(SAMPLES - 1, 1 + theta.findLastIndex((angle) => Math.abs(angle) <= block.alpha))] : Math.min(until, motion.end);
     return {
-      name: block.name, known, alpha: block.alpha, p: block.p, size: equivalentSize(block), restitution: block.restitution,
+      name: block.name, alpha: block.alpha, p: block.p, size: equivalentSize(block), restitution: block.restitution,
       uplift: upliftAcceleration(block), theta, overturned: found.overturned, moved: found.moved,
       peak: found.peak / block.alpha, flatAt: found.flatAt, leaves: leavesGround(block, motion, found),
       friction: block.linearised ? NaN : largestFriction(block, motion, found),
@@ -148,30 +146,58 @@ function planeKeys(state, file) {
   ].map(String);
 }
 
-/** Which of column and frame (or portal) overturn at one point of the plane. */
-function cellOf(state, file, plane, blocks, x, y) {
+/** Whether the column, or the frame (or portal), overturns at one point of the plane. */
+function fallsAt(state, file, plane, blocks, bit, x, y) {
   const a = y * Math.tan(blocks[0].alpha), omega = plane.isRecord ? 1 : x * blocks[0].p;
   const [alone, , other] = plane.isRecord ? structuresOf(state, x / blocks[0].lever) : blocks;
-  const fails = (block) => failsAt(state, file, block, a, omega);
-  return (fails(alone) ? COLUMN_FALLS : 0) + (fails(other) ? FRAME_FALLS : 0);
+  return failsAt(state, file, bit === COLUMN_FALLS ? alone : other, a, omega);
 }
+
+/** Where each boundary crosses the way from the middle of a cell to that of the next, to the right and
+    up, as a share of this way: by bisection. */
+async function crossingsOf({ codes }, columns, falls, turn) {
+  const crossings = new Float32Array(4 * codes.length).fill(0.5);
+  for (let k = 0; k < codes.length; k++) {
+    const i = (k % columns) + 0.5, j = Math.floor(k / columns) + 0.5, nexts = [i + 1 < columns && k + 1, k + columns];
+    for (const bit of [COLUMN_FALLS, FRAME_FALLS]) {
+      for (const up of [0, 1]) {
+        if (!nexts[up] || nexts[up] >= codes.length || !((codes[k] ^ codes[nexts[up]]) & bit)) continue;
+        await turn();
+        let [low, high] = [0, 1];
+        for (let step = 0; step < 4; step++) {
+          const middle = (low + high) / 2;
+          if (falls(bit, i + (1 - up) * middle, j + up * middle) === (codes[k] & bit) > 0) low = middle;
+          else high = middle;
+        }
+        crossings[crossingAt(codes, k, bit, up)] = (low + high) / 2;
+      }
+    }
+  }
+  return crossings;
+}
+
+/** The place of a crossing in their list. */
+const crossingAt = (codes, k, bit, up) => (2 * (bit - 1) + up) * codes.length + k;
 
 let map = { key: "" }; // the last one, which goes on where it was left
 
 /** Fill the map in four rounds, each twice as fine, and report each tenth of a second once all cells
-    have a code. `turn` is awaited before each cell, with the stride of the round. */
+    have a code; under pulses find its edges at last. `turn` is awaited before each cell, with the
+    stride of the round. */
 async function spectrum(state, file, report, turn = () => {}) {
   const plane = planeOf(state, file), { columns, rows, x, y } = plane, blocks = structuresOf(state), keys = planeKeys(state, file);
-  if (map.key !== String(keys)) map = { key: String(keys), codes: new Uint8Array(columns * rows), isKnown: new Uint8Array(columns * rows), done: 0 };
-  const { codes, isKnown } = map, tell = () => report({ keys, codes: codes.slice(), columns, rows, share: map.done / codes.length });
+  if (map.key !== String(keys)) map = { key: String(keys), codes: new Uint8Array(columns * rows), isKnown: new Uint8Array(columns * rows), done: 0, crossings: null };
+  const { codes, isKnown } = map, isWhole = () => map.crossings || (plane.isRecord && map.done === codes.length);
+  const tell = () => report({ keys, codes: codes.slice(), crossings: map.crossings, columns, rows, share: isWhole() ? 1 : (0.8 * map.done) / codes.length });
   const place = ([low, high], share, isLog) => (isLog ? low * (high / low) ** share : low + (high - low) * share);
+  const falls = (bit, i, j) => fallsAt(state, file, plane, blocks, bit, place(x, i / columns, plane.isRecord), place(y, j / rows, true));
   let reported = performance.now();
   for (let stride = 8; stride >= 1; stride /= 2) {
     for (let i = 0; i < columns; i += stride) {
       for (let j = 0; j < rows; j += stride) {
         if (isKnown[i + columns * j]) continue;
         await turn(stride);
-        const code = cellOf(state, file, plane, blocks, place(x, (i + 0.5) / columns, plane.isRecord), place(y, (j + 0.5) / rows, true));
+        const code = [COLUMN_FALLS, FRAME_FALLS].reduce((sum, bit) => sum + (falls(bit, i + 0.5, j + 0.5) ? bit : 0), 0);
         for (let k = i; k < Math.min(i + stride, columns); k++) {
           for (let l = j; l < Math.min(j + stride, rows); l++) if (!isKnown[k + columns * l]) codes[k + columns * l] = code;
         }
@@ -185,6 +211,9 @@ async function spectrum(state, file, report, turn = () => {}) {
     }
     if (stride <= 2) tell();
   }
+  if (isWhole()) return;
+  map.crossings = await crossingsOf(map, columns, falls, turn);
+  tell();
 }
 
 /** Answer questions, `{id, state}`, one after the other, and read files. */

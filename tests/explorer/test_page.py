@@ -213,7 +213,6 @@ EXTREMES = """Object.keys(SHAPES).concat("record").flatMap(shape => CHOICES.eq.f
     const {times, ground, displacement, structures} = histories(each, fileOf(each));
     const isSound = [times, ground, displacement].every(all => all.every(Number.isFinite))
       && structures.every(of => Number.isNaN(of.peak) === of.overturned
-        && of.known >= 0 && of.known <= times.at(-1)
         && of.theta.every((theta, k) => Number.isFinite(theta) || times[k] > of.flatAt)
         && !(of.moved && eq === "exact" && Number.isNaN(of.friction)));
     return [[shape, eq, cap, key, end, isSound]];
