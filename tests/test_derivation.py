@@ -1,11 +1,12 @@
-"""Extensions by computer algebra: many columns, other shapes, a fixed mass."""
+"""The paper's algebra: equations as they are printed, and proofs that fail for what is false."""
 
 import math
+import re
 
 import pytest
 import sympy as sp
 
-from derivation import extensions, fixed_mass, reversals
+from derivation import check_printed, consequences, extensions, fixed_mass, reversals, theorems
 from derivation.fixed_mass import (
     I_b,
     fixed_motion,
@@ -24,7 +25,83 @@ from derivation.notation import (
     m_c,
     vertical_acceleration,
 )
+from derivation.printed import EQUATIONS, follows
 from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn, Pulse, RockingBlock, judge
+
+KINDS = {
+    "eq9_positive": "sign",
+    "eq19": "sign",
+    "eq20": "sign",
+    "eq21": "sign",
+    "eq22": "sign",
+    "text_p_hat": "radical",
+    "text_p_hat_trilith": "bracket",
+}
+
+
+@pytest.fixture(scope="module")
+def checks():
+    found = check_printed()
+    named = {check.id: check for check in found}
+    assert len(named) == len(found)
+    return named
+
+
+def test_every_equation_of_the_paper_is_there_and_named_once(checks):
+    assert {check.equation for check in checks.values()} == {None, *range(1, 26)}
+    assert all(re.fullmatch(r"[a-z][a-z0-9_]*", name) for name in checks)
+
+
+def test_double_signs_are_tested_on_both_sides(checks):
+    for number in range(4, 10):
+        parts = [check.part for check in checks.values() if check.equation == number]
+        assert parts == ["θ < 0", "θ > 0"]
+
+
+SIGNS, BRACKETS = str.maketrans("", "", "+−±∓ "), str.maketrans("", "", "() ")
+
+
+def test_these_and_no_other_discrepancies_are_found(checks):
+    wrong = [check for check in checks.values() if not check.follows]
+    assert {check.id: check.kind for check in wrong} == KINDS
+    for check in wrong:
+        assert check.meant_follows
+        gone = BRACKETS if check.kind in ("bracket", "radical") else SIGNS
+        assert check.printed.translate(gone) == check.meant.translate(gone)
+        assert ("√" in check.printed) == (check.kind in ("bracket", "radical"))
+
+
+@pytest.mark.parametrize("statement", EQUATIONS, ids=lambda s: s.name)
+def test_one_wrong_sign_anywhere_is_caught(statement):
+    right = statement.meant or statement.printed
+    places = list(re.finditer(r" [+−] ", right))
+    for place in places:
+        other = " − " if place.group() == " + " else " + "
+        wrong = right[: place.start()] + other + right[place.end() :]
+        assert not follows(wrong, statement.premises, statement.sides), wrong
+
+
+@pytest.mark.parametrize(
+    ("name", "right", "wrong"),
+    [
+        ("eq24", "(1 + γ/(1 + 2γ)) R", "(1 + γ/(1 + 3γ)) R"),  # its second form alone
+        ("eq13", "F_x1 + F_x2", "F_x1 − F_x2"),
+        ("eq13", "ü_g + ü", "ü_g ± ü"),  # right for θ < 0 alone
+        ("eq16", "g + v̈", "g ± v̈"),
+    ],
+)
+def test_no_member_and_no_side_is_left_out(name, right, wrong):
+    (statement,) = (s for s in EQUATIONS if s.name == name)
+    assert right in statement.printed
+    other = statement.printed.replace(right, wrong)
+    assert not follows(other, statement.premises, statement.sides)
+
+
+def test_every_theorem_holds_and_is_stated():
+    proofs = theorems()
+    assert [proof.theorem for proof in proofs if not proof.holds] == []
+    assert len({proof.theorem for proof in proofs}) == len(proofs)
+    assert all(proof.statement.endswith(".") for proof in proofs)
 
 
 def swapped(side):
@@ -42,8 +119,8 @@ def doubled(side):
 
 
 right = extensions.frame_of_columns
+_SMALL = gamma * sp.sin(alpha) ** 4 / 50
 _CAP = gamma * sp.sin(alpha) ** 2 / 50
-_LIGHTER = 1 / (1 + gamma)
 REVERSALS = [
     ("exact", swapped, "mass_ratio_leaves_only_the_time_scale"),
     ("exact", swapped, "larger_rotation_feels_the_larger_push"),
@@ -67,18 +144,34 @@ EXTENSIONS = [
     ),
     ("PULSES", extensions.PULSES[::-1], "short_pulses_gain_by_the_order_of_their_moment"),
 ]
-fixed = {name: getattr(fixed_mass, name) for name in dir(fixed_mass) if name.startswith("fixed_")}
-FIXED_MASS = [
-    (name, lambda *side, name=name, spoil=spoil: spoil(fixed[name](*side)), proof)
-    for name, spoil, proof in (
-        ("fixed_tangent", lambda t: t / _LIGHTER, "fixed_mass_lowers_the_uplift_acceleration"),
-        ("fixed_tangent", lambda t: t * (1 + _CAP), "fixed_mass_rocks_as_one_column"),
-    )
-]
+
+
+def of(module, name, spoil, proof):
+    """A result of a module is spoilt wherever a proof takes it."""
+    right = getattr(module, name)
+    return (module, name, lambda *arguments: spoil(right(*arguments)), proof)
+
+
 WRONG = [
-    (module, *row)
-    for module, rows in ((reversals, REVERSALS), (extensions, EXTENSIONS), (fixed_mass, FIXED_MASS))
-    for row in rows
+    *((reversals, *row) for row in REVERSALS),
+    *((extensions, *row) for row in EXTENSIONS),
+    *(
+        of(fixed_mass, "fixed_tangent", lambda t, spoil=spoil: t * (1 + spoil), proof)
+        for spoil, proof in (
+            (gamma, "fixed_mass_lowers_the_uplift_acceleration"),
+            (_CAP, "fixed_mass_rocks_as_one_column"),
+        )
+    ),
+    of(consequences, "size_ratio", lambda ratio: 1 / ratio, "size_grows_to_a_limit"),
+    of(consequences, "quadratic_terms", lambda t: (t[0], 2 * t[1]), "quadratic_terms_cancel"),
+    of(consequences, "potential_energy", lambda v: 2 * v, "energy_is_conserved_between_impacts"),
+    *(
+        of(consequences, "restitution", lambda r: r + _SMALL, proof)
+        for proof in (
+            "restitution_is_below_the_columns",
+            "frame_rocks_on_below_its_largest_slenderness",
+        )
+    ),
 ]
 
 
