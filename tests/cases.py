@@ -30,6 +30,9 @@ BLOCK = th.RockingBlock(2.0, 0.25, 0.9)
 SIZES = {"half_width": 0.5, "half_height": 3.0}
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 SIDES = pytest.mark.parametrize("side", [1.0, -1.0])
+TIME = 0.01 * np.arange(400)
+MOTION = 0.3 * np.sin(2.5 * np.pi * TIME) * np.exp(-(((TIME - 2.0) / 0.8) ** 2))
+"""A motion that rises and dies, in g."""
 CLOSED_PULSES = [shape for shape in ELEMENTARY if shape in FINITE_SHAPES]
 
 
@@ -58,6 +61,11 @@ EVERY = pytest.mark.parametrize(("solve", "block"), solvers(BLOCK, BLOCK.linear(
 ON_LINEAR = pytest.mark.parametrize("solve", NAMES, ids=NAMES.values())
 TWO = [th.simulate, plain.simulate]
 BY_TWO = pytest.mark.parametrize("solve", TWO, ids=["Taylor", "plain"])
+
+
+def fate(end):
+    """Whether an outcome or a history overturns, and after how many impacts."""
+    return bool(end.overturned), int(end.number_of_impacts)
 
 
 def as_written(tables):

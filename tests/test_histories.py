@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 import topheavy as th
-from benchmarks.boundaries import survey
 from steps.shared import plain
-from steps.shared.linear import simulate_linear_exact as closed
-from tests.cases import BLOCK, BOTH, BY_TWO, CLOSED_PULSES, COLUMN, EVERY, SIDES
+from tests.cases import BLOCK, BOTH, BY_TWO, EVERY, fate
 from topheavy.bodies.free_rocking import potential
-from topheavy.kernel.history import MAX_FREE_FLIGHT, MAX_FREE_IMPACTS
+from topheavy.ground.shapes import FINITE_SHAPES
+from topheavy.kernel.history import MAX_FREE_FLIGHT
 
 SHAKEN = th.Pulse("one-sine", 0.5, 9.0)
 LOSSLESS = BLOCK.with_restitution(1.0)
@@ -52,18 +51,12 @@ def test_samples_only_look(solve, block, pulse, rotation):
     assert (whole.time.shape, whole.time[0]) == ((1000,), 0.0)
     if rotation == 0.0:
         end = th.judge(block, pulse)
-        assert (end.overturned, end.number_of_impacts) == (
-            whole.overturned,
-            whole.number_of_impacts,
-        )
+        assert fate(end) == fate(whole)
         close = 1e-8 * block.slenderness
         assert end.peak_rotation == pytest.approx(whole.peak_rotation, abs=close, nan_ok=True)
-    for samples in (2, 3, [0.0, 0.01, 0.05], np.linspace(0.0, 1.2 * whole.time[-1], 77)):
+    for samples in (3, [0.0, 0.01, 0.05], np.linspace(0.0, 1.2 * whole.time[-1], 77)):
         found = solve(block, pulse, rotation=rotation, samples=samples)
-        assert (found.overturned, found.number_of_impacts) == (
-            whole.overturned,
-            whole.number_of_impacts,
-        )
+        assert fate(found) == fate(whole)
         # samples end steps of the plain solver, whose error of a peak is below 1e-8 α
         close = {"rel": 1e-9, "abs": 1e-10 * block.slenderness}
         assert found.peak_rotation == pytest.approx(whole.peak_rotation, **close, nan_ok=True)
@@ -80,10 +73,10 @@ def test_samples_only_look(solve, block, pulse, rotation):
 
 @EVERY
 def test_history_is_consistent_with_itself(solve, block):
-    for shape in CLOSED_PULSES if solve is closed else (*CLOSED_PULSES, "ricker-symmetric"):
-        for amplitude in (0.3, 0.6, 4.0):
+    for shape, amplitudes in (("one-sine", (0.3, 0.6, 4.0)), ("one-cosine", (0.6,))):
+        for amplitude in amplitudes:
             pulse = th.Pulse(shape, amplitude, 9.0)
-            found = solve(block, pulse, samples=np.linspace(0.0, 2 * pulse.duration, 1001))
+            found = solve(block, pulse, samples=np.linspace(0.0, 2 * pulse.duration, 501))
             assert found.overturned == (found.outcome == "overturned")
             assert math.isnan(found.peak_rotation) == found.overturned
             assert np.all(np.diff(found.impact_times, prepend=0.0) > 0)
@@ -91,7 +84,7 @@ def test_history_is_consistent_with_itself(solve, block):
             slope = (found.rotation[2:] - found.rotation[:-2]) / (2 * step)
             apart = np.abs(found.time[1:-1, None] - [*found.impact_times, math.inf]).min(axis=1)
             aloft = (apart > 2 * step) & (np.abs(found.rotation[1:-1]) > 1e-3) & np.isfinite(slope)
-            np.testing.assert_allclose(slope[aloft], found.velocity[1:-1][aloft], atol=0.01)
+            np.testing.assert_allclose(slope[aloft], found.velocity[1:-1][aloft], atol=0.02)
             if not found.overturned:
                 assert np.max(np.abs(found.rotation)) <= found.peak_rotation * (1 + 1e-9)
                 forced = np.count_nonzero(found.impact_times <= pulse.duration)
@@ -125,14 +118,6 @@ def test_last_sample_of_a_history_is_known_and_one_at_rest_stays(block):
     assert not np.any([found.rotation[-100:], found.velocity[-100:]])
 
 
-@EVERY
-def test_record_of_a_sine_is_answered_like_the_sine(solve, block):
-    step = SHAKEN.duration / 400
-    record = th.Record(step, SHAKEN.excitation(step * np.arange(401)))
-    close = pytest.approx(solve(block, SHAKEN, samples=2).peak_rotation, rel=2e-3)
-    assert solve(block, record, samples=2).peak_rotation == close
-
-
 # ---------------------------------------------------------------------------- rest
 
 
@@ -158,15 +143,6 @@ def test_threshold_far_ahead_lets_the_block_rest_until_it_is_reached():
     np.testing.assert_array_equal(bounced.rotation[1:], alone.rotation[1:])
 
 
-def test_ground_that_is_over_does_not_keep_the_block_from_resting():
-    # Had the rise at the start gone on, it would be beyond the threshold when the bounces die.
-    block, nudge = BLOCK.with_restitution(0.3), th.Record(0.05, [0.0, 0.05, *np.zeros(30)])
-    shaken, free = (plain.simulate(block, it, rotation=0.1, samples=2) for it in (nudge, None))
-    assert shaken.outcome == free.outcome == "rests"
-    assert 0.3 < shaken.impact_times[0] < nudge.duration - 0.5
-    assert len(shaken.impact_times) == len(free.impact_times)
-
-
 @pytest.mark.usefixtures("count_all")
 def test_block_that_lands_on_ground_beyond_the_threshold_is_not_put_to_rest():
     pulse = th.Pulse("constant", 1.2 * LEVEL, math.pi / 0.3)  # rocks it to θ < 0
@@ -189,21 +165,6 @@ def test_lossless_block_is_never_said_to_rest():
     assert (low.outcome, len(low.impact_times) <= 1) == ("rocking", True)
 
 
-@pytest.mark.parametrize("shape", ["one-sine", "ricker-symmetric"])
-@pytest.mark.parametrize("strength", [1.1, 6.0])
-@BOTH
-def test_lossless_block_rocks_for_ever_or_overturns_by_both_solvers(block, shape, strength):
-    lossless = block.with_restitution(1.0)
-    pulse = th.Pulse(shape, strength * block.uplift_acceleration, 10.7)
-    ends = [judged(lossless, pulse) for judged in (th.judge, plain.judge)]
-    assert {end.overturned for end in ends} == {strength == 6.0}
-    history = th.simulate(lossless, pulse, samples=50)
-    assert history.outcome == ("overturned" if ends[0].overturned else "rocking")
-    if not ends[0].overturned:
-        assert len(history.impact_times) == history.number_of_impacts + MAX_FREE_IMPACTS
-        assert ends[1].peak_rotation == pytest.approx(ends[0].peak_rotation, rel=1e-6)
-
-
 # ---------------------------------------------------------------------------- ends
 
 
@@ -222,33 +183,26 @@ def test_linear_block_has_fallen_only_where_no_ground_of_this_motion_brings_it_b
         assert last == pytest.approx(max(math.pi / 2, 0.25 + push), rel=1e-2)
 
 
-@BY_TWO
-@SIDES
-def test_smallest_speed_that_a_number_can_have_is_rest(solve, side):
-    found = solve(th.RockingBlock(1.0, 0.25, 0.9), velocity=side * 5e-324, duration=0.5, samples=3)
-    assert found.outcome in ("no uplift", "rests")
-    assert not found.rotation.any()
-
-
 # ---------------------------------------------------------------------------- at the last bit
 
-SLOW = th.RockingBlock(2.14, 0.25, 0.9)
+SLOW, QUICK = th.RockingBlock(2.14, 0.25, 0.9), th.Pulse("one-sine", 1.0, 15.7)
 
 
 def test_poised_block_that_was_judged_overturned_does_not_bounce():
     """Its energy is the barrier's plus 1e-16; integrated, it falls back."""
-    _, amplitude = boundary(th.judge, SLOW, 2.2, 2.25)
-    history = th.simulate(SLOW, th.Pulse("one-sine", amplitude, 15.7))
+    _, amplitude = boundary(th.judge, SLOW, QUICK, 2.2, 2.25)
+    history = th.simulate(SLOW, QUICK.scaled(amplitude))
     assert history.outcome == "overturned"
     assert len(history.impact_times) == history.number_of_impacts == 1
     assert history.rotation[-1] == pytest.approx(0.25, rel=1e-3)
 
 
-def boundary(judged, block, low, high):
-    """Two neighbouring amplitudes of a one-sine, the first survived and the second not."""
+def boundary(judged, block, unit, low, high):
+    """Two neighbouring factors on a pulse that have different outcomes, between two that have."""
+    first = judged(block, unit.scaled(low)).overturned
     while low < (middle := 0.5 * (low + high)) < high:
-        fell = judged(block, th.Pulse("one-sine", middle, 15.7)).overturned
-        low, high = (low, middle) if fell else (middle, high)
+        same = judged(block, unit.scaled(middle)).overturned == first
+        low, high = (middle, high) if same else (low, middle)
     return low, high
 
 
@@ -257,8 +211,8 @@ def boundary(judged, block, low, high):
 def test_history_at_the_last_bit_is_of_one_piece(block, solve):
     """Poised at α, no survivor goes on outward and no block that overturns comes back."""
     judged = th.judge if solve is th.simulate else plain.judge
-    for amplitude in boundary(judged, block, 2.0, 4.0):
-        history = solve(block, th.Pulse("one-sine", amplitude, 15.7), samples=400)
+    for amplitude in boundary(judged, block, QUICK, 2.0, 4.0):
+        history = solve(block, QUICK.scaled(amplitude), samples=400)
         rotation = np.abs(history.rotation[np.isfinite(history.rotation)])
         assert history.time[-1] < 0.7 + MAX_FREE_FLIGHT / 2.14 * 1.1 + 40.0
         if history.overturned:
@@ -267,21 +221,24 @@ def test_history_at_the_last_bit_is_of_one_piece(block, solve):
             assert rotation.max() < 1.01 * max(0.25, history.peak_rotation)
 
 
-def test_survivor_that_is_integrated_outward_ends_where_it_is_poised():
-    """By rounding alone the exact block at rest at α leaves it, on either side."""
-    for alpha in (0.1, 0.25, 0.3, 0.4):
-        for rotation in (alpha, math.nextafter(alpha, 0.0), math.nextafter(alpha, 1.0)):
-            history = th.simulate(th.RockingBlock(1.0, alpha, 0.9), rotation=rotation)
-            last = abs(history.rotation[np.isfinite(history.rotation)][-1])
-            assert history.overturned == (rotation > alpha)
-            assert last > 0.99 * alpha if history.overturned else last < 1.01 * alpha
-
-
-def test_part_of_the_boundaries_agrees():
-    """The whole is benchmarks/boundaries.py: a hundred blocks, every pulse, all records."""
-    found = survey(2)
-    assert (found.pulses >= 20, found.records >= 4, found.wrong) == (True, True, [])
-    assert found.decided > 8 * found.pulses
+@BOTH
+@pytest.mark.parametrize("shape", FINITE_SHAPES)
+def test_all_calls_agree_beside_a_boundary(shape, block):
+    unit, scan = th.Pulse(shape, 1.0, 7.0), LEVEL * np.geomspace(1.01, 20.0, 60)
+    fell = th.overturned_by(block, unit, scan)
+    at = np.flatnonzero(fell[1:] != fell[:-1])[0]
+    low, high = boundary(th.judge, block, unit, *scan[at : at + 2].tolist())
+    offs = (2e-12, 1e-10, 1e-6)
+    beside = [low * (1.0 - off) for off in offs] + [high * (1.0 + off) for off in offs]
+    cells = th.overturning_map(block, shape, [7.0], sorted(beside))
+    for amplitude, cell, impacts in zip(
+        sorted(beside), cells.overturned.values[0], cells.number_of_impacts.values[0], strict=True
+    ):
+        pulse = unit.scaled(amplitude)
+        end, whole = th.judge(block, pulse), th.simulate(block, pulse, samples=50)
+        assert fate(end) == (cell, impacts)
+        assert fate(whole) == (cell, impacts)
+        assert cell == (fell[at] if amplitude <= low else fell[at + 1])
 
 
 def test_impact_right_after_the_start_is_found():
@@ -317,13 +274,3 @@ def test_block_that_loses_next_to_nothing_is_followed_as_fast_as_one_without_los
         th.judge(th.RockingBlock(1.0, 0.2342, restitution), record)
         times.append(time.process_time() - begin)
     assert times[1] < 10.0 * max(times[0], 0.05)
-
-
-@pytest.mark.parametrize("judged", [th.judge, plain.judge], ids=["Taylor", "plain"])
-def test_zeros_behind_a_record_change_nothing(judged):
-    samples = 0.6 * np.sin(np.linspace(0.0, 30.0, 100))
-    longer = th.Record(0.02, np.append(samples, np.zeros(500)))
-    for zeros in (np.zeros(1), np.zeros(2)):
-        shorter = th.Record(0.02, np.append(samples, zeros))
-        assert judged(COLUMN, shorter) == judged(COLUMN, longer)
-    assert judged(COLUMN, longer).number_of_impacts > 3

@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from functools import cache
 
 import matplotlib as mpl
 import numpy as np
@@ -59,7 +60,7 @@ def test_fragility_has_points_in_bands_of_exact_intervals():
     assert axes.get_xlabel() == "PGA (g)"
 
 
-PULSE, SHAKING = Pulse("one-sine", 0.4, 6.0), Record(0.1, [0.0, 0.3, -0.2, 0.1])
+PULSE = Pulse("one-sine", 0.4, 6.0)
 RESULTS = {
     "history": lambda: topheavy.simulate(FRAME, PULSE),
     "forces": lambda: topheavy.contact_forces(FRAME, Cap(5, 0.4), RESULTS["history"](), PULSE),
@@ -80,10 +81,15 @@ def max_acceleration(motion):
     return motion.peak_acceleration
 
 
+@cache
+def value_of(result):
+    return (RESULTS | OTHERS)[result]()
+
+
 @pytest.mark.parametrize("function", plot.__all__)
 @pytest.mark.parametrize("result", RESULTS | OTHERS)
 def test_each_result_has_one_plot(function, result):
-    value = (RESULTS | OTHERS)[result]()
+    value = value_of(result)
     if function == result:
         axes = getattr(plot, function)(value)
         assert axes.get_xlabel()
@@ -99,7 +105,7 @@ def test_each_result_has_one_plot(function, result):
 @pytest.mark.parametrize("function", plot.__all__)
 def test_what_is_no_axes_is_refused(function):
     with pytest.raises(ValueError, match="expected Axes of Matplotlib"):
-        getattr(plot, function)(RESULTS[function](), axes=np.array([1]))
+        getattr(plot, function)(value_of(function), axes=np.array([1]))
 
 
 def test_spectrum_tells_the_modes_apart_and_ascends():

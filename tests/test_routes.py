@@ -11,13 +11,12 @@ from hypothesis import strategies as st
 import topheavy as th
 from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact as closed
-from tests.cases import BLOCK, RECORDS
-from topheavy.bodies.free_rocking import barrier, energy
+from tests.cases import BLOCK, fate
 from topheavy.checks import MAX_ACCELERATION
-from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES, PULSE_SHAPES
+from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES
 
 few = settings(max_examples=15, deadline=None, derandomize=True, database=None)
-many = settings(few, max_examples=50)  # benchmarks/fuzz.py tries thousands
+many = settings(few, max_examples=30)  # benchmarks/fuzz.py tries thousands
 
 
 @st.composite
@@ -81,49 +80,6 @@ def test_factor_on_both_frequencies_scales_time_alone(case, exact, factor):
     np.testing.assert_allclose(
         other.peak_rotation, plain.peak_rotation, rtol=0, atol=1e-6 * case[0].slenderness
     )
-
-
-@few
-@given(
-    *(st.floats(3.0, 25.0), st.floats(0.5, 20.0)),
-    st.one_of(st.floats(0.0, 20.0), st.just(math.inf)),
-    *(st.sampled_from(FINITE_SHAPES), st.floats(1.02, 5.0), st.floats(2.0, 10.0), st.booleans()),
-)
-def test_frame_is_the_column_of_its_equivalent_size(
-    degrees, size, mass_ratio, shape, strength, ratio, linearised
-):
-    """The paper's claim, to 1e-12 α where a change of 1e-9 in the amplitude decides nothing."""
-    alpha = math.radians(degrees)
-    sides = np.array([math.sin(alpha), math.cos(alpha)])
-    frame = th.RockingFrame(th.Column(*size * sides), mass_ratio)
-    twin = th.Column(*frame.equivalent_size * sides).block(restitution=frame.restitution)
-    first, second = (one.linear() if linearised else one for one in (frame.block(), twin))
-    unit = th.Pulse(shape, strength * first.uplift_acceleration, ratio * first.frequency_parameter)
-    ends = [th.judge(first, unit.scaled(x)) for x in (1 - 1e-9, 1.0, 1 + 1e-9)]
-    apart = [(end.overturned, end.number_of_impacts) for end in ends]
-    assume(apart[0] == apart[1] == apart[2])
-    end = th.judge(second, unit)
-    assert (end.overturned, end.number_of_impacts) == apart[1]
-    spread = 0.0 if end.overturned else abs(ends[2].peak_rotation - ends[0].peak_rotation)
-    # rounding differs by 1e-16 of amplitude, ω/p and α; 1e-4 of what 1e-9 does is 1e-13
-    close = 1e-12 * alpha + 1e-4 * spread
-    np.testing.assert_allclose(end.peak_rotation, ends[1].peak_rotation, rtol=0, atol=close)
-
-
-@few
-@given(shaken(records=False))
-def test_energy_never_grows_once_the_ground_rests_and_falls_at_impacts_alone(case):
-    block, pulse = case
-    times = pulse.duration + np.linspace(1e-6, 12.0, 400) / block.frequency_parameter
-    found = th.simulate(block, pulse, samples=times)
-    assume(not found.overturned)
-    pairs = zip(np.abs(found.rotation), found.velocity, strict=True)
-    height = np.array([energy(block, *pair) for pair in pairs])
-    top = max(height.max(), 1e-9 * barrier(block))
-    assert np.all(np.diff(height) <= 1e-8 * top)
-    same = np.diff(np.searchsorted(found.impact_times, times)) == 0
-    same &= height[:-1] > 1e-4 * top  # lower bounces end in rest between two samples
-    np.testing.assert_allclose(np.diff(height)[same], 0.0, rtol=0, atol=1e-8 * top)
 
 
 # ---------------------------------------------------------------------------- Taylor and plain
@@ -205,7 +161,7 @@ def alike(block, excitation, **options):
 
 
 @pytest.mark.parametrize(
-    ("block", "pulse", "start", "duration"), list(random_cases(40)), ids=[*map(str, range(40))]
+    ("block", "pulse", "start", "duration"), list(random_cases(25)), ids=[*map(str, range(25))]
 )
 def test_solver_agrees_with_the_closed_form_under_pulses(block, pulse, start, duration):
     times = np.linspace(0.0, duration, 60)
@@ -220,15 +176,7 @@ def test_solver_agrees_with_the_closed_form_under_pulses(block, pulse, start, du
     np.testing.assert_allclose(*rates, atol=1e-5 * alpha * p)
 
 
-@pytest.mark.parametrize("factor", [1.0, 4.0])
-@pytest.mark.parametrize("gamma", [0.0, 4.0])
-def test_solver_agrees_with_the_closed_form_in_el_centro(gamma, factor):
-    block = th.RockingFrame(th.Column(0.3, 1.5), gamma).block().linear()
-    _, exact = alike(block, th.read_record(RECORDS / "el_centro_1940_NS.AT2").scaled(factor))
-    assert exact.outcome != "no uplift"
-    assert exact.overturned == (factor > 1)
-
-
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("linearised", [False, True])
 @pytest.mark.parametrize("degrees", [0.1, 14.0, 80.0])
 @pytest.mark.parametrize("ratio", [0.05, 1e3])
@@ -239,10 +187,7 @@ def test_extreme_input_is_answered_alike_by_both_routes(strength, ratio, degrees
         pulse = th.Pulse(shape, strength * block.uplift_acceleration, ratio * 2.0)
         end, whole = th.judge(block, pulse), th.simulate(block, pulse, samples=5)
         expected = plain.judge(block, pulse)
-        assert (end.overturned, end.number_of_impacts) == (
-            whole.overturned,
-            whole.number_of_impacts,
-        )
+        assert fate(end) == fate(whole)
         assert end.overturned == expected.overturned
         assert strength < 1.1 or end.overturned == (ratio < 1)
         for peak in (whole.peak_rotation, expected.peak_rotation):
@@ -251,45 +196,14 @@ def test_extreme_input_is_answered_alike_by_both_routes(strength, ratio, degrees
             )
 
 
-@pytest.mark.parametrize("shape", PULSE_SHAPES)
-def test_amplitude_overflows_beyond_the_largest_alone(shape):
-    for amplitude in (1e160, 1e200, -1e300):
-        with pytest.raises(ValueError, match=r"amplitude is .*e\+.* g; expected at most"):
-            th.Pulse(shape, amplitude, 5.0)
-    pulse, whole = th.Pulse(shape, MAX_ACCELERATION, 5.0), shape != "harmonic"
-    for block in (BLOCK, BLOCK.linear()) if whole else ():
+@pytest.mark.parametrize("shape", FINITE_SHAPES)
+def test_largest_amplitude_overturns_by_every_solver(shape):
+    pulse = th.Pulse(shape, MAX_ACCELERATION, 5.0)
+    for block in (BLOCK, BLOCK.linear()):
         assert th.judge(block, pulse).overturned
         assert plain.judge(block, pulse).overturned
         if block.linearised and shape in ELEMENTARY:
             assert closed(block, pulse).overturned
-    with pytest.raises(ValueError, match=r"expected at most|forever"):
-        th.overturning_map(BLOCK, shape, [5.0], [0.1, 1e200])
-    if whole:
-        with pytest.raises(ValueError, match="expected at most"):
-            th.overturning_intervals(
-                BLOCK, replace(pulse, amplitude=1.0), (0, 1e200), resolution=1e199
-            )
 
 
 # ---------------------------------------------------------------------------- structures
-
-
-def test_heaviest_cap_is_the_limit_of_heavy_caps():
-    column, pulse = th.Column(0.5, 2.0), th.Pulse("one-sine", 0.6, 7.0)
-    less, heavy, limit = (th.judge(th.RockingFrame(column, g), pulse) for g in (1e3, 1e9, math.inf))
-    assert (heavy.overturned, heavy.number_of_impacts) == (
-        limit.overturned,
-        limit.number_of_impacts,
-    )
-    assert heavy.peak_rotation == pytest.approx(limit.peak_rotation, rel=1e-8)
-    assert heavy.peak_rotation != less.peak_rotation
-
-
-def test_structure_that_cannot_rock_is_refused_unless_it_has_a_restitution_of_its_own():
-    stocky, pulse = th.Column(2.0, 1.0), th.Pulse("one-sine", 1.0, 9.0)
-    for structure in (stocky, th.RockingFrame(stocky, 1.0)):
-        with pytest.raises(ValueError, match=r"1\.107|63\.4"):
-            th.simulate(structure, pulse)
-        assert th.simulate(structure.block(restitution=0.5), pulse).outcome == "no uplift"
-        end = th.judge(structure.block(restitution=0.3), pulse.scaled(2.4))
-        assert 0 < end.peak_rotation < stocky.slenderness

@@ -1,7 +1,6 @@
 """What every solver of the rocking block has to do: printed numbers, closed forms, uplift, rest."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -86,17 +85,6 @@ def test_overturning_without_impact_begins_at_the_root_of_its_condition(solve, r
     assert found.number_of_impacts == 0
 
 
-@ON_LINEAR
-@pytest.mark.parametrize("p", [0.5, 2.0])
-@pytest.mark.parametrize("push", [1.2, 1.5, 3.0])  # in units of αg
-def test_constant_push_overturns_after_the_logarithm_of_housner(solve, p, push):
-    block, margin = replace(LINEAR, frequency_parameter=p), max(1e-9, 100 * CLOSE[solve])
-    for factor, overturned in ((1 - margin, False), (1 + margin, True)):
-        lasting = math.log(push / (push - 1)) * factor / p
-        found = solve(block, th.Pulse("constant", 0.2 * push, math.pi / lasting), samples=2)
-        assert found.overturned is overturned
-
-
 # ---------------------------------------------------------------------------- closed forms
 
 
@@ -120,31 +108,6 @@ def test_peaks_of_free_rocking_decay_as_housner_found(solve):
     np.testing.assert_allclose(found, expected, atol=10 * CLOSE[solve])
     printed = [0.310798, 0.204701, 0.065148]
     np.testing.assert_allclose((sides * found)[[0, 1, 4]], printed, atol=1e-5)
-
-
-def lobe(tau):
-    """Under a one-sine of 0.5 g and ω = 5 from uplift on, by hand: p = 1, α = 0.2."""
-    psi, gain = math.asin(0.2 / 0.5), 0.5 / 26
-    forced, begun, slope = gain * np.sin(5 * tau + psi) - 0.2, gain * 0.4 - 0.2, 5 * math.cos(psi)
-    return psi / 5, forced - begun * np.cosh(tau) - gain * slope * np.sinh(tau)
-
-
-@ON_LINEAR
-@pytest.mark.parametrize(
-    ("motion", "until", "expected"),
-    [
-        ({"rotation": 0.1}, 1.3, lambda tau: (0.0, 0.2 - 0.1 * np.cosh(tau))),
-        ({"excitation": th.Pulse("one-sine", 0.5, 5.0)}, 0.6, lobe),
-        # a ramp of 0.5 g/s lifts at 0.4 s
-        ({"excitation": th.Record(1.0, [0, 0.5])}, 0.6, lambda t: (0.4, 0.5 * (t - np.sinh(t)))),
-    ],
-    ids=["free", "sine", "ramp"],
-)
-def test_first_flight_is_that_of_hyperbolic_functions(solve, motion, until, expected):
-    tau = np.linspace(0.0, until, 40)
-    begin, rotation = expected(tau)
-    found = solve(LINEAR, **motion, samples=np.concatenate([[-0.0], begin + tau])[begin == 0 :])
-    np.testing.assert_allclose(found.rotation[-40:], rotation, rtol=0, atol=CLOSE[solve])
 
 
 @EVERY
@@ -239,7 +202,7 @@ def test_block_lifts_beyond_its_threshold_alone(solve, block, shape, side):
 
 @BY_TWO
 @pytest.mark.parametrize("shape", ["one-sine", "ricker-symmetric", "ricker-antisymmetric"])
-@pytest.mark.parametrize("ratio", [1.05, 1.5, 2.3, 3.0, 4.0, 20.0])
+@pytest.mark.parametrize("ratio", [1.05, 2.3, 4.0])
 def test_block_lifts_when_the_ground_first_exceeds_the_threshold(solve, shape, ratio):
     """From 2.24 and 3.2 times the threshold on, a side lobe of a wavelet lifts it the other way."""
     for block in (BLOCK, BLOCK.linear()):

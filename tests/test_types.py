@@ -14,7 +14,6 @@ import topheavy
 
 PUBLIC = [name for name in dir(topheavy) if not name.startswith("_")]
 TESTS = Path(__file__).parent
-RECORD = TESTS.parent / "data" / "records" / "el_centro_1940_NS.AT2"
 CACHE = TESTS.parent / ".mypy_cache" / "user"  # of what the library and its own are, for next time
 CHECKERS = {
     "mypy": ["mypy", "--strict", "--warn-unreachable", f"--cache-dir={CACHE}"],
@@ -71,14 +70,6 @@ def test_users_script_passes_strict_type_checkers(errors):
 
 def test_every_mistake_of_a_user_is_found(errors):
     assert {int(line) for name, line in errors if name == "mistakes.py"} == set(range(4, 13))
-
-
-def test_users_script_runs():
-    script = [sys.executable, "-W", "error", TESTS / "typed_user.py", RECORD]
-    run = subprocess.run(
-        script, capture_output=True, text=True, check=False, env=os.environ | {"MPLBACKEND": "agg"}
-    )
-    assert (run.returncode, run.stderr) == (0, "")
 
 
 def test_what_a_public_function_returns_is_public():

@@ -1,4 +1,4 @@
-"""Bodies that rock freely: moment and rotation, energy, times and samples."""
+"""Bodies that rock freely: moment and rotation, energy, times, and how they move a cap beam."""
 
 import dataclasses
 import math
@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipk, ellipkinc
 
+from tests.cases import fate
 from topheavy import Column, RockingBlock, simulate
 from topheavy.bodies.free_rocking import (
     barrier,
@@ -17,6 +18,7 @@ from topheavy.bodies.free_rocking import (
     quarter_period,
     restoring_moment,
 )
+from topheavy.bodies.kinematics import cap_acceleration, cap_displacement
 
 COLUMN = Column(0.5, 2.0)
 FRACTIONS = np.array([-0.99, -0.5, -0.02, 0.02, 0.3, 0.99, 1.4])
@@ -61,7 +63,7 @@ def beside(block, start, level, side):
 def test_block_within_its_slenderness_needs_the_barrier_to_overturn(block, fraction):
     """One that moves in is judged again behind the impact."""
     below, above = beside(block, fraction * ALPHA, barrier(block), 1)
-    assert (below.overturned, below.number_of_impacts) == (False, 0)
+    assert fate(below) == (False, 0)
     assert (above.overturned, above.number_of_impacts, math.isnan(above.peak_rotation)) == (
         True,
         0,
@@ -69,8 +71,8 @@ def test_block_within_its_slenderness_needs_the_barrier_to_overturn(block, fract
     )
     assert below.peak_rotation == pytest.approx(ALPHA, rel=1e-4)
     below, above = beside(block, 0.3 * ALPHA, barrier(block) / block.restitution**2, -1)
-    assert (below.overturned, below.number_of_impacts) == (False, 0)
-    assert (above.overturned, above.number_of_impacts) == (True, 1)
+    assert fate(below) == (False, 0)
+    assert fate(above) == (True, 1)
     assert below.peak_rotation == pytest.approx(ALPHA, rel=1e-4)
 
 
@@ -139,3 +141,54 @@ def test_drift_is_the_whole_range_of_the_energy_over_its_mean():
     expected = (max(levels) - min(levels)) / np.mean(levels)
     assert energy_drift(EXACT, wrong, 1) == pytest.approx(expected, rel=1e-12)
     assert expected > 0.01
+
+
+# ---------------------------------------------------------------------------- the cap beam
+
+COLUMNS = [Column(0.11, 0.40), Column(0.5, 2.0), Column(1.0, 1.0)]
+EVERY_COLUMN = pytest.mark.parametrize("column", COLUMNS, ids=["trilith", "slender", "square"])
+TURNS = np.array([-1.9, -1.0, -0.5, -0.01, 0.01, 0.3, 1.0, 1.7])  # of α
+
+
+def turned_corner(column: Column, rotation: float) -> tuple[float, float]:
+    """Where the corner that carries the cap goes when the rectangle turns about its base contact.
+
+    Positive rotations turn it clockwise about the right base contact; the cap rides on the upper
+    left corner, the only one that keeps touching it from above.
+    """
+    side = math.copysign(1.0, rotation)
+    pivot = complex(side * column.half_width, 0.0)
+    corner = complex(-side * column.half_width, 2 * column.half_height)
+    moved = pivot + (corner - pivot) * np.exp(-1j * rotation)
+    return (moved - corner).real, (moved - corner).imag
+
+
+@EVERY_COLUMN
+def test_displacement_is_that_of_the_turned_rectangle(column):
+    for rotation in TURNS * column.slenderness:
+        u, v = cap_displacement(column, rotation)
+        expected = turned_corner(column, rotation)
+        assert (u, v) == pytest.approx(expected, rel=1e-12, abs=1e-13 * column.size)
+
+
+@EVERY_COLUMN
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_acceleration_is_the_second_derivative_of_displacement(column, sign):
+    def rotation(t):
+        return sign * column.slenderness * (0.9 + 0.6 * np.sin(2.0 * t) - 0.2 * t)
+
+    def rate(t):
+        return sign * column.slenderness * (1.2 * np.cos(2.0 * t) - 0.2)
+
+    def second(t):
+        return sign * column.slenderness * (-2.4 * np.sin(2.0 * t))
+
+    step = 1e-4
+    for t in np.linspace(0.0, 2.0, 21):
+        here, ahead, behind = (
+            np.array(cap_displacement(column, rotation(s))) for s in (t, t + step, t - step)
+        )
+        acceleration = (ahead - 2 * here + behind) / step**2
+        assert cap_acceleration(column, rotation(t), rate(t), second(t)) == pytest.approx(
+            acceleration, abs=1e-5 * column.size
+        )

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from replication.config import components
-from tests.cases import RECORDS
-from tests.ground.test_records import MOTION, TIME
+from tests.cases import MOTION, RECORDS, TIME
 from topheavy import read_record
 from topheavy.ground.reading import OTHER_READERS
 

@@ -20,8 +20,7 @@ from topheavy.kernel.forcing import (
     unit_pulse,
 )
 from topheavy.kernel.rest import comes_to_rest
-from topheavy.kernel.step import TOLERANCE, working_array
-from topheavy.kernel.taylor import ROTATION, Method, State, expand, oscillator
+from topheavy.kernel.taylor import State, oscillator
 
 RATIO = 2.5  # ω/p; with p = 1 the kernel's time is that of a `Pulse`
 PULSES = [*((shape, 1) for shape in PULSE_SHAPES), ("one-sine", 3), ("one-cosine", 7)]
@@ -113,8 +112,6 @@ def test_record_is_that_of_the_library():
 
 
 BLOCK = oscillator(RockingBlock(1.0, 0.2, 0.9))
-LINEAR = oscillator(RockingBlock(1.0, 0.2, 0.9, linearised=True))
-BOTH = pytest.mark.parametrize("block", [BLOCK, LINEAR], ids=["exact", "linearised"])
 STEP = 0.02
 RATIOS = pytest.mark.parametrize("ratio", [1.0, 0.5, 3.0, 0.731])
 
@@ -176,25 +173,6 @@ def test_bounds_hold_for_the_rest_of_both_records():
     assert bounds_after(there, there.end) == (0.0, 1.0)
     falling = forcing_of(both, STEP, 2.0, 2.0)
     assert bounds_after(falling, 0.0)[0] == math.inf
-
-
-@BOTH
-def test_series_solves_the_equation_under_a_changing_gravity(block):
-    """φ'' of the series against the equation, at several times of a step."""
-    state = State(0.0, 1.0, 0.05, -0.4, math.sin(0.05), math.cos(0.05), -0.3, 1.2, 1.4, -2.0)
-    if block.linearised:
-        state = state._replace(sine=0.0, cosine=1.0)
-    w, order = working_array(), 14
-    expand(w, Method(order, TOLERANCE, True), block, state, (0.0, 0.0, 0.0))
-    phi = np.polynomial.Polynomial(w[ROTATION, : order + 1])
-    for time in (0.0, 0.02, 0.05, 0.1):
-        weight, push = 1.4 - 2.0 * time, -0.3 + 1.2 * time
-        if block.linearised:
-            expected = weight * phi(time) + push
-        else:
-            tilt = math.cos(0.2 - phi(time))
-            expected = weight * math.sin(phi(time)) / math.cos(0.2) + push * tilt
-        assert phi.deriv(2)(time) == pytest.approx(expected, rel=1e-10)
 
 
 def test_rest_is_not_called_when_gravity_is_about_to_fall():

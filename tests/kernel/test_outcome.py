@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.cases import pulse_forcing
-from topheavy import Pulse, Record, RockingBlock, judge, overturned_by, simulate
+from topheavy import Record, RockingBlock, judge, overturned_by, simulate
 from topheavy.kernel import forcing
 from topheavy.kernel.forcing import (
     NO_RECORD,
@@ -21,8 +21,6 @@ from topheavy.kernel.grid import outcome_of
 from topheavy.kernel.rest import MIN_COUNTED_PEAK, comes_to_rest
 from topheavy.kernel.step import (
     LANDING,
-    NOTHING,
-    ROTATION,
     TOLERANCE,
     advance,
     after_impact,
@@ -50,24 +48,6 @@ def aloft(block, rotation, velocity, push=None):
     sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(rotation), math.cos(rotation))
     push = -there.uplift_level if push is None else push
     return State(0.0, 1.0, rotation, velocity, sine, cosine, push, 0.0, 1.0, 0.0)
-
-
-def step_from(block, state, longest, zero_order=0, peak=0.0):
-    w, method = working_array(), Method(20, 1e-16, True)
-    return *advance(w, method, oscillator(block), STILL, state, zero_order, longest, peak), w
-
-
-def test_dip_inside_a_step_is_a_landing():
-    """Thrown at the ground under an outward push: just too fast, it dips for an instant."""
-    block, push, begin = BLOCK.linear(), 0.25, 0.05
-    critical = math.sqrt(2 * push * begin + begin**2)
-    for factor, event in ((1 - 1e-9, NOTHING), (1 + 1e-9, LANDING)):
-        state = aloft(block, begin, -factor * critical, push=push)
-        step, ended_by, _, w = step_from(block, state, 0.9)
-        assert ended_by == event
-        # one step, at both ends of which the polynomial is aloft
-        assert np.polynomial.polynomial.polyval(0.9, w[ROTATION, :21]) > 1e-3
-        assert (step == 0.9) == (event == NOTHING)
 
 
 @few
@@ -115,21 +95,6 @@ def test_the_side_is_a_state_of_its_own():
     assert after.push == pytest.approx(-0.02 - there.uplift_level)
     assert after.rate == -0.5
     assert after_impact(there, before._replace(velocity=1e-18)).velocity == 0.0
-
-
-@BOTH
-@pytest.mark.parametrize("shape", ["one-sine", "one-cosine"])
-def test_pulse_of_several_cycles_is_the_record_of_its_samples(shape, block):
-    seen = set()
-    for strength in (1.3, 2.5, 3.5, 9.0):
-        pulse = Pulse(shape, strength * block.uplift_acceleration, 3.0, cycles=3)
-        time = np.linspace(0.0, pulse.duration, 30_001)
-        motions = pulse, Record(time[1], pulse.excitation(time))
-        outcome, sampled = (judge(block, motion) for motion in motions)
-        assert outcome[::2] == sampled[::2]  # overturned, number of impacts
-        np.testing.assert_allclose(outcome.peak_rotation, sampled.peak_rotation, rtol=0, atol=1e-5)
-        seen.add(outcome.overturned)
-    assert len(seen) == 2
 
 
 def test_peaks_are_good_to_1e_9_alpha_at_the_default_tolerance():

@@ -12,7 +12,7 @@ from tests.cases import BLOCK, BOTH, pulse_forcing
 from topheavy import RockingBlock
 from topheavy.ground.shapes import PULSE_SHAPES
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
-from topheavy.kernel.forcing import equation, ground, next_uplift
+from topheavy.kernel.forcing import equation, ground
 from topheavy.kernel.grid import record_order
 from topheavy.kernel.quiet_pieces import derivatives, eighth_derivative, powers
 from topheavy.kernel.step import (
@@ -29,7 +29,6 @@ from topheavy.kernel.taylor import (
     ROTATION,
     Method,
     State,
-    evaluate,
     expand,
     oscillator,
 )
@@ -74,26 +73,6 @@ def test_series_solves_the_equation_of_motion_as_it_is_printed(shape, side, bloc
         assert bend == pytest.approx(expected, abs=1e-11)
 
 
-@pytest.mark.parametrize("order", [6, 9, 12])
-def test_error_of_a_step_falls_with_the_order_of_the_series(order):
-    motion = pulse_forcing("one-sine", 0.6, 2.5)
-    state = state_of(BLOCK, motion, 0.3, -1.0, 0.1, -0.07)
-    errors = []
-    for step in (0.4, 0.2):
-        short, full = (
-            evaluate(
-                series(BLOCK, motion, 0.3, state, order=n),
-                Method(n, 1e-16, False),
-                oscillator(BLOCK),
-                state,
-                step,
-            )
-            for n in (order, ORDER)
-        )
-        errors.append(abs(short.rotation - full.rotation))
-    assert math.log2(errors[0] / errors[1]) == pytest.approx(order + 1, abs=0.7)
-
-
 @pytest.mark.parametrize("step", [0.01, 0.05, 0.2])
 def test_order_for_a_record_keeps_the_tolerance_of_the_second_derivative(step):
     motion, order = pulse_forcing("constant", 0.6, 2.5), record_order(step)
@@ -104,25 +83,6 @@ def test_order_for_a_record_keeps_the_tolerance_of_the_second_derivative(step):
     )
     assert order < PULSE_ORDER
     assert abs(short - full) < TOLERANCE
-
-
-@pytest.mark.parametrize("degrees", [0.1, 3, 5, 8, 14, 20, 35, 80])
-@pytest.mark.parametrize("linearised", [False, True])
-def test_uplift_starts_outward_however_slight_the_push(degrees, linearised):
-    """At |a| = tan α the first coefficients cancel: grouped otherwise, their sign is chance."""
-    block = RockingBlock(2.0, math.radians(degrees), 0.9, linearised)
-    level, cosine = block.uplift_acceleration, oscillator(block).cosine
-    for excess in (1e-9, 1e-6, 1e-3, 0.5, 5.0, 1e3):
-        for shape in ("one-sine", "ricker-symmetric", "ricker-antisymmetric"):
-            pulse = pulse_forcing(shape, level * (1 + excess), 1.7)
-            time, push, rate, _ = next_uplift(pulse, 0.0, level)
-            if time == math.inf:
-                continue
-            state = State(time, 1.0, 0.0, 0.0, 0.0, 1.0, push, rate, 1.0, 0.0)
-            w = series(block, pulse, time, state, order=PULSE_ORDER)
-            assert not w[ROTATION, :3].any()
-            assert w[ROTATION, 3] == pytest.approx(rate * cosine / 6)
-            assert w[ROTATION, 3] > 0.0
 
 
 few = settings(max_examples=60, deadline=None, derandomize=True, database=None)

@@ -5,7 +5,6 @@ import math
 from fractions import Fraction
 from itertools import pairwise
 
-import numpy as np
 import pytest
 
 import topheavy as th
@@ -25,6 +24,7 @@ STRUCTURES = [
     *(th.FixedMassColumn(COLUMN, gamma) for gamma in (0.25, 1.0, math.inf)),
     th.FixedMassColumn(COLUMN, 1.0, 2.6, 0.6),
     th.MonolithicPortal(COLUMN, 1.0, 4.2, 0.6),
+    BLOCK.linear(),
 ]
 
 
@@ -32,7 +32,7 @@ def again(certificate):
     return check(json.loads(json.dumps(certificate)))
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("structure", STRUCTURES, ids=repr)
 def test_both_sides_of_each_minimum_are_proven(structure):
     """The outcomes and impacts of the kernel, 1e-8 below and above the boundary it finds."""
@@ -50,20 +50,6 @@ def test_both_sides_of_each_minimum_are_proven(structure):
             assert ending.overturned == (outcome == "overturns")
             if ending.overturned:
                 assert certificate["impacts"] == ending.number_of_impacts
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
-@pytest.mark.parametrize("shape", FINITE_SHAPES)
-def test_outcomes_are_those_of_the_kernel(shape, block):
-    seen = set()
-    for scale, ratio in ((0.5, 1.0), (1.02, 3.3), (1.3, 6.1), (2.1, 1.0), (5.2, 3.3), (9.1, 6.1)):
-        pulse = th.Pulse(shape, scale * block.uplift_acceleration, ratio * 2.0)
-        certificate = certified(block, pulse)
-        overturned = th.judge(block, pulse).overturned
-        assert again(certificate) == ("overturns" if overturned else "survives")
-        seen.add(overturned)
-    assert len(seen) == 2
 
 
 @pytest.mark.parametrize("shape", ["one-sine", "one-cosine"])
@@ -116,26 +102,6 @@ def test_amplitude_that_overturns_stays_open():
     certificates, left = survives_below(COLUMN, th.Pulse("half-sine", 1.0, OMEGA), 0.36)
     assert left
     assert all(float(one["factor"][1]) < 0.3572 for one in certificates)
-
-
-@pytest.mark.parametrize(("low", "high", "least"), [(0.999, 1.01, 0.3), (1.05, 1.0505, 0.1)])
-def test_walls_hold_the_motions_of_a_box(low, high, least):
-    """From rest, and from behind the first flight."""
-    low, high = low * COLUMN.uplift_acceleration, high * COLUMN.uplift_acceleration
-    certificate = certified(COLUMN, PULSE, (low, high))
-    walls = [event for event in certificate["events"] if event["event"] == "walls"]
-    assert len(walls) > 50
-    assert certificate["impacts"] is None
-    times = np.array([float(event["sigma"]) for event in walls]) / OMEGA
-    closest = 0.0
-    for factor in np.linspace(low, high, 5):
-        samples = [0.0, *times[:-1]]  # samples end with the pulse
-        motion = th.simulate(COLUMN, PULSE.scaled(factor), duration=1.5, samples=samples)
-        for event, phi in zip(walls, motion.rotation[1:], strict=False):
-            wall = float(event["walls"][0 if phi > 0.0 else 1])
-            assert abs(phi) <= wall * (1.0 + 1e-9)
-            closest = max(closest, abs(phi) / wall)
-    assert closest > least
 
 
 @pytest.mark.parametrize("structure", STRUCTURES, ids=repr)
