@@ -1,5 +1,7 @@
 """Fragility of an ensemble, and what it refuses."""
 
+import re
+
 import numpy as np
 import pytest
 
