@@ -4,7 +4,7 @@ python benchmarks/mutations.py src/steps/vase.py --seed 7 --count 40 --tests tes
 
 Each is another comparison, operator, sign, number or truth in the syntax tree of a file at HEAD.
 One that survives shows a gap of the tests, or changes no result: read it. `not collected` is one
-that stops an import. --list prints the changes alone.
+that stops an import.
 """
 
 import argparse
@@ -19,25 +19,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from tests.faults.run import ROOT, Entry, report
 
-LIMIT = 600.0  # s, of the tests of one mutation
-OTHER = {
-    ast.Lt: ast.LtE,
-    ast.LtE: ast.Gt,
-    ast.Gt: ast.GtE,
-    ast.GtE: ast.Lt,
-    ast.Eq: ast.NotEq,
-    ast.NotEq: ast.Eq,
-    ast.In: ast.NotIn,
-    ast.NotIn: ast.In,
-    ast.Is: ast.IsNot,
-    ast.IsNot: ast.Is,
-    ast.Add: ast.Sub,
-    ast.Sub: ast.Add,
-    ast.Mult: ast.Div,
-    ast.Div: ast.Mult,
-    ast.And: ast.Or,
-    ast.Or: ast.And,
-}
+OTHER = {"Lt": "LtE", "LtE": "Gt", "Gt": "GtE", "GtE": "Lt", "Eq": "NotEq", "NotEq": "Eq"}
+OTHER |= {"In": "NotIn", "NotIn": "In", "Is": "IsNot", "IsNot": "Is", "And": "Or", "Or": "And"}
+OTHER |= {"Add": "Sub", "Sub": "Add", "Mult": "Div", "Div": "Mult"}
 NO_RESULT = (ast.Raise, ast.JoinedStr, ast.Import, ast.ImportFrom)
 """Messages and imports are not changed; nor are annotations."""
 
@@ -50,13 +34,9 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--tests", nargs="+", default=["tests"])
     parser.add_argument("-j", type=int, default=1, dest="jobs", help="how many at a time")
-    parser.add_argument("--list", action="store_true")
     options = parser.parse_args()
     entries = mutations(options.paths, options.seed, options.count, options.tests)
-    if options.list:
-        print(*(entry["name"] for entry in entries), sep="\n")
-        return 0
-    return report(entries, options.jobs, LIMIT)
+    return report(entries, options.jobs, limit=600.0)
 
 
 def mutations(paths: list[str], seed: int, count: int, tests: list[str]) -> list[Entry]:
@@ -64,8 +44,6 @@ def mutations(paths: list[str], seed: int, count: int, tests: list[str]) -> list
     files = [file for file in git("ls-files", "--", *paths).split() if file.endswith(".py")]
     texts = {file: git("show", f"HEAD:{file}") for file in files}
     sites = [(file, k) for file in files for k, _ in enumerate(changes(ast.parse(texts[file])))]
-    if not sites:
-        sys.exit(f"nothing to change in {' '.join(paths)}; expected files of Python that git knows")
     chosen = sorted(random.Random(seed).sample(sites, min(count, len(sites))))
     return [mutated(file, texts[file], k) | {"tests": tests} for file, k in chosen]
 
@@ -87,9 +65,9 @@ def changes(tree: ast.AST) -> list[tuple[ast.AST, Callable[[], None]]]:
         match node:
             case ast.Compare():
                 for k, operator in enumerate(node.ops):
-                    sites.append((node, partial(node.ops.__setitem__, k, OTHER[type(operator)]())))
-            case ast.BinOp() | ast.BoolOp() | ast.AugAssign() if type(node.op) in OTHER:
-                sites.append((node, partial(setattr, node, "op", OTHER[type(node.op)]())))
+                    sites.append((node, partial(node.ops.__setitem__, k, other(operator))))
+            case ast.BinOp() | ast.BoolOp() | ast.AugAssign() if type(node.op).__name__ in OTHER:
+                sites.append((node, partial(setattr, node, "op", other(node.op))))
             case ast.UnaryOp(op=ast.USub()):
                 sites.append((node, partial(setattr, node, "op", ast.UAdd())))
             case ast.UnaryOp(op=ast.Not(), operand=operand):
@@ -98,6 +76,10 @@ def changes(tree: ast.AST) -> list[tuple[ast.AST, Callable[[], None]]]:
             case ast.Constant(value=bool() | int() | float() as number):
                 sites.append((node, partial(setattr, node, "value", another(number))))
     return sites
+
+
+def other(operator: ast.AST) -> ast.AST:
+    return getattr(ast, OTHER[type(operator).__name__])()
 
 
 def another(number: bool | int | float) -> bool | int | float:
@@ -118,9 +100,8 @@ def within(node: ast.AST) -> Iterator[ast.AST]:
 
 
 def git(*words: str) -> str:
-    return subprocess.run(
-        ["git", "-C", str(ROOT), *words], check=True, capture_output=True, text=True
-    ).stdout
+    command = ["git", "-C", str(ROOT), *words]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 if __name__ == "__main__":
