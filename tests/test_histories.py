@@ -188,15 +188,6 @@ def test_linear_block_has_fallen_only_where_no_ground_of_this_motion_brings_it_b
 SLOW, QUICK = th.RockingBlock(2.14, 0.25, 0.9), th.Pulse("one-sine", 1.0, 15.7)
 
 
-def test_poised_block_that_was_judged_overturned_does_not_bounce():
-    """Its energy is the barrier's plus 1e-16; integrated, it falls back."""
-    _, amplitude = boundary(th.judge, SLOW, QUICK, 2.2, 2.25)
-    history = th.simulate(SLOW, QUICK.scaled(amplitude))
-    assert history.outcome == "overturned"
-    assert len(history.impact_times) == history.number_of_impacts == 1
-    assert history.rotation[-1] == pytest.approx(0.25, rel=1e-3)
-
-
 def boundary(judged, block, unit, low, high):
     """Two neighbouring factors on a pulse that have different outcomes, between two that have."""
     first = judged(block, unit.scaled(low)).overturned

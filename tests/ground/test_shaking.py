@@ -1,4 +1,4 @@
-"""Vertical motion of the ground, and a shaking table."""
+"""Vertical motion of the ground."""
 
 import math
 
@@ -7,28 +7,17 @@ import pytest
 
 import topheavy as th
 from steps.shared import plain
+from tests.cases import COLUMN, FRAME
 
-COLUMN = th.Column(0.5, 3.0)
-FRAME = th.RockingFrame(COLUMN, 1.0)
 TIME = np.linspace(0.0, 6.0, 601)
 SHAKE = th.Record(0.02, 0.2 * np.sin(2.0 * math.pi * np.arange(0, 101) * 0.02 / 1.6), "shake")
 UP = th.Record(0.01, 0.35 * np.cos(2.0 * math.pi * np.arange(0, 301) * 0.01 / 0.31), "up")
 
 
-def constant(value, time_step=0.02, samples=151):
-    return th.Record(time_step, np.full(samples, value))
-
-
-def test_no_vertical_acceleration_changes_nothing():
-    without = plain.simulate(FRAME, SHAKE, samples=TIME)
-    with_zero = plain.simulate(FRAME, SHAKE, samples=TIME, vertical=constant(0.0, samples=101))
-    np.testing.assert_allclose(without.rotation, with_zero.rotation, atol=1e-12)
-
-
 def test_constant_vertical_acceleration_is_another_gravity():
     """In (1 + v) g the column has p √(1 + v) and feels ü_g/(1 + v)."""
-    share = 0.7
-    lighter = plain.simulate(COLUMN, SHAKE, samples=TIME[:200], vertical=constant(share - 1.0))
+    share, lift = 0.7, th.Record(0.02, np.full(151, -0.3))
+    lighter = plain.simulate(COLUMN, SHAKE, samples=TIME[:200], vertical=lift)
     heavier = th.Column(COLUMN.half_width / share, COLUMN.half_height / share)
     other = plain.simulate(heavier, SHAKE.scaled(1.0 / share), samples=TIME[:200])
     assert np.abs(other.rotation).max() > 0.1 * COLUMN.slenderness
@@ -44,7 +33,7 @@ EQUATIONS = pytest.mark.parametrize("linearised", [False, True], ids=["exact", "
 
 @VERTICALS
 @EQUATIONS
-@pytest.mark.parametrize("factor", [1.0, -1.4, 2.6, 4.5])
+@pytest.mark.parametrize("factor", [-1.4, 2.6])
 def test_both_solvers_agree(up, linearised, factor):
     block = FRAME.block().linear() if linearised else FRAME.block()
     shaking = SHAKE.scaled(factor)

@@ -4,18 +4,15 @@ import math
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
 
-from tests.cases import BOTH, grid_of
+from tests.cases import grid_of
 from topheavy import RockingBlock
-from topheavy.ground.shapes import FINITE_SHAPES
-from topheavy.kernel import grid, history, step
-from topheavy.kernel.forcing import forcing_of, pulse_waveform, record_waveform
+from topheavy.kernel.forcing import pulse_waveform, record_waveform
 from topheavy.kernel.grid import MIN_PULSES, outcome_of, outcomes_of
-from topheavy.kernel.taylor import Method, oscillator
+from topheavy.kernel.taylor import oscillator
 
 BLOCK = oscillator(RockingBlock(1.0, math.radians(14.0), 0.87))
 SCALES, AMPLITUDES = np.linspace(0.5, 10, 61), np.linspace(0.25, 2.5, 31)
@@ -85,35 +82,6 @@ def test_history_of_a_mixture_that_was_given_up_is_named_with_its_block():
     assert not outcomes_of([BLOCK, damped], record, *cells).overturned[1]
 
 
-#: Strengths over the level and ω/p, from slow to fast and from faint to enormous.
-EXTREMES = [(1.0 + 1e-9, 3.0), (1.5, 1e-4), (1e5, 1e-3), (3.0, 5.0), (7.1, 5.0), (9.0, 300.0)]
-
-
-@pytest.mark.parametrize("shape", FINITE_SHAPES)
-@BOTH
-def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
-    """A hundredth of the bound is enough, also for a history with samples."""
-    there, w = oscillator(block), step.working_array()
-    samples = history.Samples(np.empty(0), np.empty((2, 0)), np.empty(1000))
-    rest = 0.0, 0.0, math.inf, samples
-
-    def ends(motion):
-        method = Method(step.PULSE_ORDER, step.TOLERANCE, history.is_straight(motion.wave))
-        how = w, method, there, motion
-        judged, sampled = history.judge.py_func(*how), history.sample.py_func(*how, *rest)
-        return [judged.result, sampled.result]
-
-    bounds = ("MAX_STEPS", "MAX_STEPS_WITH_SAMPLES")
-    for bound in bounds:
-        monkeypatch.setattr(history, bound, getattr(history, bound) // 100)
-    for strength, ratio in EXTREMES:
-        motion = forcing_of(pulse_waveform(shape), ratio, strength * there.uplift_level, 0.0)
-        assert history.UNRESOLVED not in ends(motion)
-    for bound in bounds:
-        monkeypatch.setattr(history, bound, 0)
-    assert ends(motion) == [history.UNRESOLVED] * 2
-
-
 CHILD = """
 import os, signal, sys, threading, time
 import numpy as np
@@ -153,18 +121,3 @@ def test_ctrl_c_ends_a_long_call():
     assert set(ended) == {"simulate", "overturning_map"}
     # of the processor: a busy machine takes longer, but does no more
     assert max(map(float, ended.values())) < 2.0
-
-
-def test_halted_threads_leave_the_rest_and_pass_on_the_error():
-    def stuck(w):
-        while w[step.HALT, 0] == 0.0:
-            time.sleep(0.001)
-
-    def failing(_):
-        raise KeyboardInterrupt
-
-    begin = time.perf_counter()
-    with pytest.raises(KeyboardInterrupt):
-        grid.in_threads([failing, stuck, stuck], 2)
-    assert time.perf_counter() - begin < 2.0
-    assert grid.in_threads([lambda _, k=k: k for k in range(9)], 3) == [*range(9)]

@@ -33,7 +33,6 @@ from topheavy.kernel.taylor import Method, State, evaluate, oscillator
 few = settings(max_examples=40, deadline=None, derandomize=True, database=None)
 STILL = Forcing(forcing.NONE, 0.0, 1.0, 0.0, 1.0, 0.0, NO_RECORD)
 BLOCK = RockingBlock(1.0, 0.25, 0.9)
-BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 
 
 def shaken(block, shape, strength, ratio, tolerance=TOLERANCE):
