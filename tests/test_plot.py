@@ -166,8 +166,8 @@ def test_block_has_no_bodies():
 
 def test_without_matplotlib_the_extra_is_named():
     code = (
-        "import sys; sys.modules['matplotlib'] = None; from topheavy import *; "
-        "plot.structure(Column(0.5, 3.0))"
+        "import sys; sys.modules['matplotlib'] = None; import topheavy as th; "
+        "th.plot.structure(th.Column(0.5, 3.0))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert 'pip install "topheavy[plot]"' in done.stderr
