@@ -88,7 +88,8 @@ class Site(Docs):
     def file(self, path: str, line: int = 0) -> str:
         """Return a link to the page of a script, at a line."""
         at = f"#L{line}" if line else ""
-        return f"[{path}{', line ' * bool(line)}{line or ''}](source/{path}.html{at})"
+        shown = path.replace("__", r"\_\_")  # no emphasis
+        return f"[{shown}{', line ' * bool(line)}{line or ''}](source/{path}.html{at})"
 
     def table(self, name: str) -> str:
         """Return a link to a table of the run."""
