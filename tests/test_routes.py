@@ -176,7 +176,7 @@ def test_solver_agrees_with_the_closed_form_under_pulses(block, pulse, start, du
     np.testing.assert_allclose(*rates, atol=1e-5 * alpha * p)
 
 
-@pytest.mark.sampled(9)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("linearised", [False, True])
 @pytest.mark.parametrize("degrees", [0.1, 14.0, 80.0])
 @pytest.mark.parametrize("ratio", [0.05, 1e3])

@@ -235,6 +235,7 @@ obspy.Stream(pieces).write("FILE.gap", format="MSEED")
 """
 
 
+@pytest.mark.sampled(0)
 @pytest.mark.parametrize("package", ["gmprocess", "obspy"])
 def test_lines_that_read_a_national_format_run(write, package):
     assert OTHER_READERS in (RECORDS / "README.md").read_text(encoding="utf-8")

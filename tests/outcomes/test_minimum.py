@@ -46,6 +46,7 @@ def test_both_solvers_have_the_narrow_interval(pier, judged):
     assert fell == [False, True, True, False]
 
 
+@pytest.mark.sampled(0)
 def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
     apart = [
         th.overturning_intervals(BENT, EL_CENTRO, (0.0, 5.0), resolution=step)[0].lower[1]
