@@ -116,8 +116,7 @@ def test_block_has_the_three_numbers_of_its_structure(structure):
             setattr(block, name, 0.1)
 
 
-# ---------------------------------------------------------------------------- what is refused
-
+# ---------------------------------------------------------------------------- a fixed mass
 
 POINTS = 200  # of a lattice, along each side of a rectangle
 
@@ -129,27 +128,16 @@ def rectangle(mass, middle, width, depth):
     return np.stack([x.ravel(), z.ravel(), np.full(x.size, mass / x.size)])
 
 
-def turning(points):
-    """Moments of gravity and of inertia about the origin, and those of a unit ground acceleration.
-
-    Every point of a body that turns clockwise about the origin by the rate 1 has the velocity
-    (z, −x).
-    """
-    x, z, mass = points
-    gravity = np.sum(mass * th.STANDARD_GRAVITY * x)
-    push = np.sum(mass * th.STANDARD_GRAVITY * z)
-    return gravity, push, np.sum(mass * (x**2 + z**2))
-
-
 def three_numbers(points, half_base):
     """p, α and √r of point masses, placed about the middle of a base of 2 half_base."""
     x, z, mass = points
-    gravity, push, inertia = turning(np.stack([x + half_base, z, mass]))
     # Before the impact they turn about the left edge, after it about the right one, at x = B.
-    arm = x - half_base
-    before = np.sum(mass * (z * z + arm * (x + half_base)))
-    after = np.sum(mass * (z * z + arm * arm))
-    return math.sqrt(math.hypot(gravity, push) / inertia), gravity / push, before / after
+    left, right = x + half_base, x - half_base
+    gravity, push = np.sum(mass * left), np.sum(mass * z)  # their moments over g
+    inertia, after = (np.sum(mass * (arm * arm + z * z)) for arm in (left, right))
+    before = np.sum(mass * (z * z + right * left))
+    p = math.sqrt(th.STANDARD_GRAVITY * math.hypot(gravity, push) / inertia)
+    return p, gravity / push, before / after
 
 
 def column_points(axis):
