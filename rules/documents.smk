@@ -81,6 +81,7 @@ for path in sorted(glob("notebooks/*.ipynb")):
             *UPWARD,
             kernel="results/kernel.compiled",
             notebook=path,
+            style="figures/style.mplstyle",
         output:
             executed=f"results/notebooks/{name}.ipynb",
             page=f"results/notebooks/{name}.html",

@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from html import unescape
 
+import matplotlib as mpl
 import pandas as pd
 import pytest
 
@@ -149,9 +150,10 @@ def test_published_notebook_prints_what_its_cells_do(name, monkeypatch, capsys):
     monkeypatch.chdir(ROOT / "notebooks")
     monkeypatch.setattr("IPython.display.display", show := lambda one, **_: print(one))
     names = {"display": show}
-    for cell in read_yaml(f"{name}.ipynb")["cells"]:
-        if cell["cell_type"] == "code":
-            exec("".join(cell["source"]), names)
+    with mpl.rc_context():
+        for cell in read_yaml(f"{name}.ipynb")["cells"]:
+            if cell["cell_type"] == "code":
+                exec("".join(cell["source"]), names)
     page = unescape((ROOT / f"docs/notebook_{name}.html").read_text("utf-8"))
     shown = re.findall('(?s)data-mime-type="text/(?:plain|html)".*?</(?:pre|table)>', page)
     ours, theirs = (
