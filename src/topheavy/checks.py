@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 MAX_ACCELERATION = 1e6
 """Upper limit of a ground acceleration, g: the square of a larger one might overflow."""
 
-MAX_BY_UNIT = {"m": 1e9, "s": 1e9, "rad": 1e9, "rad/s": 1e9}
+MAX_BY_UNIT = {"g": MAX_ACCELERATION, "m": 1e9, "s": 1e9, "rad": 1e9, "rad/s": 1e9}
 """Upper limits by unit: powers of a larger number might overflow."""
 
 MAX_CELLS = 100_000_000
@@ -158,16 +158,6 @@ def wider_than_column(span: Any, width: float) -> float:
     return number
 
 
-def acceleration(name: str, value: Any) -> float:
-    """Return `value` (g) as a float within ±`MAX_ACCELERATION`, or raise ValueError."""
-    number = finite(name, value)
-    if abs(number) > MAX_ACCELERATION:
-        raise ValueError(
-            f"{name} is {number:.6g} g; expected at most {MAX_ACCELERATION:.0e} g in magnitude"
-        )
-    return number
-
-
 def within_quarter_turn(name: str, value: Any) -> float:
     """Return the angle `value` (rad) inside (0, π/2), or raise ValueError that names it."""
     number = finite(name, value)
@@ -220,10 +210,7 @@ def set_fields(instance: Any, **values: float) -> None:
 
 def fraction(name: str, value: Any) -> float:
     """Return `value` inside [0, 1], or raise ValueError that names it."""
-    number = finite(name, value)
-    if not 0.0 <= number <= 1.0:
-        raise ValueError(f"{name} is {number:.6g}; expected a value from 0 to 1")
-    return number
+    return within(name, value, 0.0, 1.0)
 
 
 def within_reason(name: str, value: Any, unit: str) -> float:

@@ -14,7 +14,7 @@ import topheavy as th
 from tests.cases import BLOCK, COLUMN, run_alone
 from topheavy.proven import certified
 from topheavy.proven.checking import NotProven, check, schema
-from topheavy.proven.problem import problem_of
+from topheavy.proven.prover import problem_of
 
 PULSE = th.Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5)
 

@@ -12,7 +12,7 @@ from tests.cases import BLOCK, COLUMN
 from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.proven import certified, survives_below
 from topheavy.proven.checking import Check, check
-from topheavy.proven.problem import problem_of
+from topheavy.proven.prover import problem_of
 
 OMEGA = 2.0 * math.pi / 1.5
 PULSE = th.Pulse("one-cosine", 1.0, OMEGA)

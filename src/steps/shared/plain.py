@@ -20,7 +20,7 @@ from topheavy.bodies.free_rocking import Outcome
 from topheavy.bodies.response import initial_motion, sample_times
 from topheavy.bodies.structures import Structure, as_block
 from topheavy.ground.excitation import Excitation, checked_excitation
-from topheavy.ground.vertical import both_records, check_no_free_fall, trim_zeros
+from topheavy.ground.records import both_records, check_no_free_fall, trim_zeros
 
 NEAR = 1e-3  # of a factor on a motion: how far a change of outcome is at most
 FREE = 60.0  # over p: in which what loses a tenth of its speed at impacts comes to rest

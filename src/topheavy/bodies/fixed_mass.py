@@ -27,39 +27,42 @@ from topheavy.bodies.structures import (
     RockingBlock,
     checked_column,
     checked_mass_ratio,
-    checked_restitution,
+    rocking_block,
     solitary_size,
 )
 
 
+@dataclass(frozen=True)
 class _OneBody:
     """One rigid body, symmetric about its vertical axis, on the two edges of its base."""
 
     column: Column
     mass_ratio: float
-    cap_depth: float
 
-    def _axis_and_cap_width(self) -> tuple[float, float]:
-        """Return the distance of the columns' axes from the middle, and the cap's width, m."""
+    def __post_init__(self) -> None:
+        checked_column(self.column)
+        checks.set_fields(self, mass_ratio=checked_mass_ratio(self.mass_ratio))
+
+    @property
+    def _cap(self) -> tuple[float, float, float]:
+        """Distance of the columns' axes from the middle, width and depth of the cap, m."""
         raise NotImplementedError
 
     @property
     def half_base(self) -> float:
         """B, m: from the vertical axis to the edge that it rocks about."""
-        axis, _ = self._axis_and_cap_width()
-        return axis + self.column.half_width
+        return self._cap[0] + self.column.half_width
 
     @property
     def centre_height(self) -> float:
         """H, m: of the centre of gravity above the ground."""
         h, cap = self.column.half_height, _cap_mass_share(self.mass_ratio)
-        return (1.0 - cap) * h + cap * (2.0 * h + self.cap_depth / 2.0)
+        return (1.0 - cap) * h + cap * (2.0 * h + self._cap[2] / 2.0)
 
     @property
     def inertia(self) -> float:
         """I/M, m²: moment of inertia about the edge over the mass."""
-        b, h, depth = self.column.half_width, self.column.half_height, self.cap_depth
-        axis, width = self._axis_and_cap_width()
+        b, h, (axis, width, depth) = self.column.half_width, self.column.half_height, self._cap
         cap, base = _cap_mass_share(self.mass_ratio), self.half_base**2
         of_columns = (b**2 + h**2) / 3.0 + base + axis**2 + h**2
         of_cap = (width**2 + depth**2) / 12.0 + base + (2.0 * h + depth / 2.0) ** 2
@@ -94,17 +97,12 @@ class _OneBody:
     def block(self, restitution: float | None = None) -> RockingBlock:
         """Return the rocking block of this body, with √r' unless a restitution is given.
 
-        Raises
-        ------
-        ValueError
-            When √r' is negative: such a body does not keep rocking. The message names the largest α
-            of a body with the same H and the same central moment of inertia.
+        ValueError where √r' is negative: such a body does not keep rocking. The message names the
+        largest α of a body with the same H and the same central moment of inertia.
         """
-        if restitution is None:
-            central = self.inertia - self.half_base**2  # √r' = 0 where B² reaches this
-            largest = math.atan2(math.sqrt(central), self.centre_height)
-            restitution = checked_restitution(self.restitution, self.slenderness, largest)
-        return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
+        central = self.inertia - self.half_base**2  # √r' = 0 where B² reaches this
+        largest = math.atan2(math.sqrt(central), self.centre_height)
+        return rocking_block(self, restitution, largest)
 
 
 @dataclass(frozen=True)
@@ -132,22 +130,20 @@ class FixedMassColumn(_OneBody):
     0.11065722117389565
     """
 
-    column: Column
-    mass_ratio: float
     cap_width: float = 0.0
     cap_depth: float = 0.0
 
     def __post_init__(self) -> None:
-        checked_column(self.column)
+        super().__post_init__()
         checks.set_fields(
             self,
-            mass_ratio=checked_mass_ratio(self.mass_ratio),
             cap_width=checks.not_negative("cap_width", self.cap_width, "m"),
             cap_depth=checks.not_negative("cap_depth", self.cap_depth, "m"),
         )
 
-    def _axis_and_cap_width(self) -> tuple[float, float]:
-        return 0.0, self.cap_width
+    @property
+    def _cap(self) -> tuple[float, float, float]:
+        return 0.0, self.cap_width, self.cap_depth
 
 
 @dataclass(frozen=True)
@@ -177,24 +173,23 @@ class MonolithicPortal(_OneBody):
     0.5880026035475675
     """
 
-    column: Column
-    mass_ratio: float
     span: float
     cap_depth: float = 0.0
     overhang: float = 0.0
 
     def __post_init__(self) -> None:
-        checked_column(self.column)
+        super().__post_init__()
         checks.set_fields(
             self,
-            mass_ratio=checked_mass_ratio(self.mass_ratio),
             span=checks.wider_than_column(self.span, 2.0 * self.column.half_width),
             cap_depth=checks.not_negative("cap_depth", self.cap_depth, "m"),
             overhang=checks.not_negative("overhang", self.overhang, "m"),
         )
 
-    def _axis_and_cap_width(self) -> tuple[float, float]:
-        return self.span / 2.0, self.span + 2.0 * (self.column.half_width + self.overhang)
+    @property
+    def _cap(self) -> tuple[float, float, float]:
+        width = self.span + 2.0 * (self.column.half_width + self.overhang)
+        return self.span / 2.0, width, self.cap_depth
 
 
 def _cap_mass_share(mass_ratio: float) -> float:

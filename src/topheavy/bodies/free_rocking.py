@@ -110,12 +110,7 @@ def quarter_period(structure: Structure, rotation: float) -> float:
     """Return the time (s) from rest at θ0 (rad) to the first impact.
 
     The linearised block has arccosh(1/(1 − θ0/α))/p (Housner 1963). The exact one has ∫ dφ / φ̇ by
-    the conservation of energy; with φ = θ0 (1 − x²) the integrand is smooth.
-
-    Raises
-    ------
-    ValueError
-        Unless 0 < θ0 < α.
+    the conservation of energy; with φ = θ0 (1 − x²) the integrand is smooth. 0 < θ0 < α.
     """
     from scipy.integrate import quad
 
@@ -159,11 +154,6 @@ def restoring_moment(structure: Column | RockingFrame, rotation: ArrayLike) -> N
     also carries half of the cap beam at the end of its diagonal, twice as far from the pivot; the
     moment is therefore 1 + 2γ times as high. At θ = 0 the moment balances the ground motion, up to
     the value returned for θ → 0 from above.
-
-    Raises
-    ------
-    ValueError
-        For γ = ∞: columns without mass have no m_c g R.
     """
     share = 1.0
     if isinstance(structure, RockingFrame):

@@ -92,13 +92,7 @@ class Response:
 
 
 def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:
-    """Return `samples` as a number of times (at least 2) or as an increasing array of times.
-
-    Raises
-    ------
-    ValueError
-        For anything else.
-    """
+    """Return `samples` as a number (at least 2) or increasing times, or raise ValueError."""
     if np.ndim(samples) == 0:
         return checks.whole("samples", samples, 2, MAX_SAMPLES)
     times = checks.numbers("samples", samples)
@@ -112,13 +106,7 @@ def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:
 
 
 def initial_motion(block: RockingBlock, rotation: float, velocity: float) -> tuple[float, float]:
-    """Return θ (rad) and θ̇ (rad/s) at t = 0, checked.
-
-    Raises
-    ------
-    ValueError
-        Unless both are finite and, in the exact equation, |θ| < π/2.
-    """
+    """Return finite θ (rad) and θ̇ (rad/s) at t = 0, |θ| < π/2 unless linearised."""
     theta = checks.within_reason("rotation", rotation, "rad")
     theta_rate = checks.within_reason("velocity", velocity, "rad/s")
     if not block.linearised and abs(theta) >= math.pi / 2:

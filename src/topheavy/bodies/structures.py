@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 from topheavy import checks
 from topheavy.checks import short_repr
@@ -149,16 +149,9 @@ class Column:
     def block(self, restitution: float | None = None) -> RockingBlock:
         """Return the rocking block of this column, with Housner's √r unless one is given.
 
-        Raises
-        ------
-        ValueError
-            When Housner's √r is negative: such a column does not keep rocking.
+        ValueError where Housner's √r is negative: such a column does not keep rocking.
         """
-        if restitution is None:
-            restitution = checked_restitution(
-                self.restitution, self.slenderness, largest_slenderness(0.0)
-            )
-        return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
+        return rocking_block(self, restitution, largest_slenderness(0.0))
 
 
 @dataclass(frozen=True)
@@ -209,11 +202,6 @@ class RockingFrame:
             m_b of the cap beam and m_c of one column, in the same unit.
         columns : int
             N.
-
-        Raises
-        ------
-        ValueError
-            For a mass or a number of columns outside its range.
         """
         number = checks.whole("columns", columns, 2, MAX_COLUMNS)
         cap = checks.not_negative("cap_mass", cap_mass)
@@ -248,15 +236,9 @@ class RockingFrame:
     def block(self, restitution: float | None = None) -> RockingBlock:
         """Return the rocking block of this frame, with √r of Eq. (25) unless one is given.
 
-        Raises
-        ------
-        ValueError
-            When Eq. (25) gives a negative √r: such a frame does not keep rocking.
+        ValueError where Eq. (25) gives a negative √r: such a frame does not keep rocking.
         """
-        if restitution is None:
-            limit = largest_slenderness(self.mass_ratio)
-            restitution = checked_restitution(self.restitution, self.slenderness, limit)
-        return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
+        return rocking_block(self, restitution, largest_slenderness(self.mass_ratio))
 
 
 class Structure(Protocol):
@@ -282,6 +264,11 @@ def as_block(structure: Structure) -> RockingBlock:
 
 Structures = Structure | Sequence[Structure] | Mapping[str, Structure]
 """One structure, or several: a list, or a mapping from names."""
+
+
+def are_several(structures: Structures) -> bool:
+    """Return whether structures are several, of which a result has an axis."""
+    return isinstance(structures, Mapping | Sequence)
 
 
 def named_blocks(structures: Structures) -> dict[str, RockingBlock]:
@@ -350,16 +337,19 @@ def _cap_inertia_share(mass_ratio: float) -> float:
     return 1.0 if mass_ratio == math.inf else mass_ratio / (1.0 / 3.0 + mass_ratio)
 
 
-def checked_restitution(restitution: float, slenderness: float, largest: float) -> float:
-    """Return √r, or raise ValueError when it is negative."""
-    if restitution < 0.0:
+def rocking_block(structure: Any, restitution: float | None, largest: float) -> RockingBlock:
+    """Return a structure's block with a given √r or its own, or raise ValueError if it has none."""
+    alpha, own = structure.slenderness, structure.restitution
+    if restitution is None and own < 0.0:
         raise ValueError(
-            f"slenderness is {slenderness:.6g} rad ({math.degrees(slenderness):.4g}°), for which "
-            f"√r is {restitution:.4g}: no rocking after an impact; the largest α that rocks is "
+            f"slenderness is {alpha:.6g} rad ({math.degrees(alpha):.4g}°), for which √r is "
+            f"{own:.4g}: no rocking after an impact; the largest α that rocks is "
             f"{largest:.6g} rad ({math.degrees(largest):.4g}°). Are width and height swapped? Or "
             "give a restitution from 0 to 1"
         )
-    return restitution
+    return RockingBlock(
+        structure.frequency_parameter, alpha, own if restitution is None else restitution
+    )
 
 
 # The model of Allen et al. (1986) as the paper describes it (p. 1): linearised, with massless
@@ -371,13 +361,7 @@ SIMPLIFICATIONS = ("linearised", "massless frequency", "massless restitution", "
 
 
 def simplified(frame: RockingFrame, simplification: str) -> RockingBlock:
-    """Return the block of a frame under one of `SIMPLIFICATIONS`.
-
-    Raises
-    ------
-    ValueError
-        For an unknown simplification, or where √r is negative.
-    """
+    """Return the block of a frame under one of `SIMPLIFICATIONS`, or raise ValueError."""
     exact, massless = frame.block(), RockingFrame(frame.column, math.inf).block()
     if simplification == "linearised":
         return exact.linear()

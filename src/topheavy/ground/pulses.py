@@ -121,7 +121,7 @@ class Pulse(Excitation):
         object.__setattr__(self, "shape", checked_shape(shape))
         checks.set_fields(
             self,
-            amplitude=checks.acceleration("amplitude", amplitude),
+            amplitude=checks.within_reason("amplitude", amplitude, "g"),
             angular_frequency=checks.positive("angular_frequency", angular_frequency, "rad/s"),
         )
         object.__setattr__(self, "cycles", _checked_cycles(cycles, shape))

@@ -1,4 +1,12 @@
-"""Recorded ground motions: samples in equal steps, joined by straight lines."""
+"""Recorded ground motions: samples in equal steps, joined by straight lines.
+
+Vertical ground acceleration v (g, upward) makes gravity (1 + v) g (proved in
+src/derivation/extensions.py of the repository). Between impacts
+
+    θ̈ = −p² (1 + v) { sin(α sgn θ − θ) + a/(1 + v) cos(α sgn θ − θ) }
+
+so that the block moves as under a/(1 + v) in gravity (1 + v) g, and uplifts beyond (1 + v) tan α.
+"""
 
 from __future__ import annotations
 
@@ -99,7 +107,7 @@ class Record(Excitation):
 
     def _set(self, step: float, samples: NDArray[np.float64], name: str, start: float) -> None:
         k = np.abs(samples).argmax()  # of the largest, or the first NaN
-        checks.acceleration(f"{_label(name)}: sample {k} of {samples.size}", samples[k])
+        checks.within_reason(f"{_label(name)}: sample {k} of {samples.size}", samples[k], "g")
         samples.setflags(write=False)
         # Not the __init__ of a dataclass: it would accept arrays only, as the field is one.
         fields = {"time_step": step, "acceleration": samples, "name": name, "start": start}
@@ -234,3 +242,43 @@ def _longest_run(flags: NDArray[np.bool_]) -> int:
     """Return the largest number of True in turn."""
     changes = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]])))
     return int(np.diff(changes)[::2].max(initial=0))
+
+
+def trim_zeros(record: Record) -> Record:
+    """Return a record without the zeros at its end."""
+    (moving,) = np.nonzero(record.acceleration)
+    size = max(2, int(moving[-1]) + 2) if moving.size else 2
+    if size >= record.acceleration.size:
+        return record
+    return record.with_samples(record.acceleration[:size])
+
+
+def both_records(excitation: object, vertical: object) -> tuple[Record, Record]:
+    """Return two Records that start together, or raise ValueError for other ground motions."""
+    if not isinstance(vertical, Record) or not isinstance(excitation, Record):
+        raise ValueError(
+            f"excitation is {type(excitation).__name__} and vertical {type(vertical).__name__}; "
+            "expected two Records: sample a pulse to combine it with a vertical component"
+        )
+    if abs(excitation.start - vertical.start) > 0.5 * excitation.time_step:
+        raise ValueError(
+            f"excitation starts at {excitation.start:.6g} s, vertical at {vertical.start:.6g} s; "
+            "expected the same: cut both Records to it, and give it as `start`"
+        )
+    return excitation, vertical
+
+
+def check_no_free_fall(vertical: Record, factors: ArrayLike = 1.0) -> None:
+    """Raise ValueError if the ground falls at 1 g or more: the structure would lose contact."""
+    samples, scales = vertical.acceleration, np.ravel(factors)
+    for factor in (float(scales.max()), float(scales.min())):
+        lowest = int((factor * samples).argmin())
+        least = factor * samples[lowest]
+        if least <= -1.0:
+            side = "less" if factor > 0.0 else "more"
+            raise ValueError(
+                f"vertical: at {lowest * vertical.time_step:.6g} s its acceleration times "
+                f"{factor:.6g} is {least:.6g} g; expected more than −1 g, as the structure loses "
+                f"contact with ground that falls faster: factors {side} than "
+                f"{-1.0 / samples[lowest]:.6g} are allowed"
+            )

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from topheavy import checks
 from topheavy.bodies.structures import Structure, as_block
 from topheavy.ground.excitation import checked_excitation
-from topheavy.ground.records import Record
-from topheavy.ground.vertical import both_records
+from topheavy.ground.records import Record, both_records
 from topheavy.outcomes.search import overturned_by
 
 WINDOWS = (0.025, 0.05, 0.1, 0.2)

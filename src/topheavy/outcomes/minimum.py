@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.bodies.structures import Structure, Structures, named_blocks
+from topheavy.bodies.structures import Structure, Structures, are_several, named_blocks
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.shapes import FiniteShape
@@ -139,7 +139,7 @@ def lowest_overturning(
     >>> round(th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3).acceleration, 6)
     0.191798
     """
-    if (first := checked_range(excitation, scale_range)[0]) < 0.0:
+    if (first := checked_range(scale_range)[0]) < 0.0:
         raise ValueError(
             f"scale_range begins at {first:.6g}; expected factors from zero on: for the mirrored "
             "motion, give excitation.scaled(-1)"
@@ -167,7 +167,7 @@ def _lowest(
     floors: Sequence[float],
 ) -> list[LowestOverturning]:
     """Return the lowest factor of each case. All are searched together, in few calls."""
-    grids = [*map(_nested_grid, excitations, scale_ranges, floors)]
+    grids = [*map(_nested_grid, scale_ranges, floors)]
     begin, start = 0, [-1] * len(grids)  # the place in its grid of the first factor that overturns
     searched = [*range(len(grids))]
     while searched:
@@ -218,11 +218,9 @@ class _Grid(NamedTuple):
         return self.factors([start - 1, *places] if start else places)
 
 
-def _nested_grid(
-    excitation: Pulse | Record, scale_range: tuple[float, float], floor: float
-) -> _Grid:
+def _nested_grid(scale_range: tuple[float, float], floor: float) -> _Grid:
     """Return a range in equal parts not wider than the floor; their number is a power of two."""
-    first, last, parts = steps_across(excitation, scale_range, "floor", floor)
+    first, last, parts = steps_across(scale_range, "floor", floor)
     return _Grid(first, last, 2 ** max(0, math.ceil(math.log2(parts))) + 1)
 
 
@@ -291,4 +289,4 @@ def overturning_spectrum(
         coords={"period": ("period", axis, {"units": "s"})} | structure_coordinates(blocks),
         attrs={"shape": shape},
     )
-    return result if isinstance(structure, Mapping | Sequence) else result.isel(structure=0)
+    return result if are_several(structure) else result.isel(structure=0)

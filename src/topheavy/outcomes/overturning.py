@@ -66,8 +66,7 @@ def overturning_map(
     p = block.frequency_parameter
     unit = "m" if isinstance(motion, Record) else "rad/s"
     axis = checks.axis_values("scales", scales, unit)
-    accelerations = checks.axis_values("amplitudes", amplitudes, zero_allowed=True)
-    checks.acceleration("the largest of amplitudes", accelerations.max())
+    accelerations = checks.axis_values("amplitudes", amplitudes, "g", zero_allowed=True)
     checks.number_of_cells("scales by amplitudes", axis.size, accelerations.size)
     if isinstance(motion, Record):
         if (peak := motion.peak_acceleration) == 0.0:

@@ -15,13 +15,13 @@ from topheavy.bodies.structures import (
     RockingBlock,
     Structure,
     Structures,
+    are_several,
     as_block,
     named_blocks,
 )
 from topheavy.ground.excitation import Excitation, no_excitation
 from topheavy.ground.pulses import Pulse
-from topheavy.ground.records import Record
-from topheavy.ground.vertical import both_records, check_no_free_fall
+from topheavy.ground.records import Record, both_records, check_no_free_fall
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.step import TOLERANCE
 from topheavy.kernel.taylor import Oscillator, oscillator
@@ -98,7 +98,7 @@ def overturned_by(
     _, overturned = peaks_and_outcomes(
         [*blocks], excitation, factors, tolerance, vertical, scale_vertical
     )
-    return overturned if isinstance(structure, Mapping | Sequence) else overturned[0]
+    return overturned if are_several(structure) else overturned[0]
 
 
 def peak_rotations(
@@ -150,7 +150,7 @@ def peak_rotations(
         "peak_rotation",
         {"units": "rad", "long_name": "largest |θ|"},
     )
-    return result if isinstance(structure, Mapping | Sequence) else result.isel(structure=0)
+    return result if are_several(structure) else result.isel(structure=0)
 
 
 def structure_coordinates(blocks: Mapping[str, RockingBlock]) -> dict[str, Any]:
@@ -252,7 +252,7 @@ def overturning_intervals(
     [1, 0]
     """
     resolution = checks.positive("resolution", resolution)
-    grid = _grid(excitation, scale_range, resolution)
+    grid = _grid(scale_range, resolution)
     cases = cases_of([structure], excitation, scale_range, vertical, scale_vertical)
     return intervals_on(cases, [grid], resolution, most_impacts)[0]
 
@@ -274,21 +274,21 @@ def intervals_of_many(
     """
     pairs = list(zip(structures, excitations, strict=True))
     cases = [cases_of([structure], motion, scale_range)[0] for structure, motion in pairs]
-    grids = [_grid(motion, scale_range, resolution) for motion in excitations]
+    grids = [_grid(scale_range, resolution)] * len(cases)
     intervals = intervals_on(cases, grids, resolution, most_impacts)
     if finer:
         (below, resolution), first = finer, scale_range[0]
         ends = [some[0].lower[0] if some else math.inf for some in intervals]
         places = [place for place, end in enumerate(ends) if first < end < below]
         cases = [cases[place] for place in places]
-        grids = [_grid(excitations[place], (first, ends[place]), resolution) for place in places]
+        grids = [_grid((first, ends[place]), resolution) for place in places]
         lower = intervals_on(cases, grids, resolution, most_impacts)
         for place, some in zip(places, lower, strict=True):
             intervals[place] = some + intervals[place]
     return intervals
 
 
-def checked_range(excitation: Excitation, scale_range: tuple[float, float]) -> tuple[float, float]:
+def checked_range(scale_range: tuple[float, float]) -> tuple[float, float]:
     """Return the first and the last factor of a range, or raise ValueError for any other value."""
     ends = checks.numbers("scale_range", scale_range)
     if ends.shape != (2,):
@@ -302,10 +302,10 @@ def checked_range(excitation: Excitation, scale_range: tuple[float, float]) -> t
 
 
 def steps_across(
-    excitation: Excitation, scale_range: tuple[float, float], name: str, width: float
+    scale_range: tuple[float, float], name: str, width: float
 ) -> tuple[float, float, float]:
     """Return the first and the last factor of a range, and how many steps of a width it has."""
-    first, last = checked_range(excitation, scale_range)
+    first, last = checked_range(scale_range)
     steps = (last - first) / width
     checks.number_of_cells(
         f"{name} is {width:.6g} of {first:g} to {last:g}", math.ceil(min(steps, 1e18))
@@ -313,9 +313,9 @@ def steps_across(
     return first, last, steps
 
 
-def _grid(excitation: Excitation, scale_range: tuple[float, float], resolution: float) -> Factors:
+def _grid(scale_range: tuple[float, float], resolution: float) -> Factors:
     """Return the first factors of a search, in equal steps not wider than the resolution."""
-    first, last, steps = steps_across(excitation, scale_range, "resolution", resolution)
+    first, last, steps = steps_across(scale_range, "resolution", resolution)
     return np.linspace(first, last, max(2, math.ceil(steps) + 1))
 
 

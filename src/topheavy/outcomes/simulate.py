@@ -15,8 +15,7 @@ from topheavy.bodies.response import EndState, Response, initial_motion, sample_
 from topheavy.bodies.structures import RockingBlock, Structure, as_block
 from topheavy.ground.excitation import Excitation, checked_excitation, no_excitation
 from topheavy.ground.pulses import Pulse
-from topheavy.ground.records import Record
-from topheavy.ground.vertical import both_records, check_no_free_fall, trim_zeros
+from topheavy.ground.records import Record, both_records, check_no_free_fall, trim_zeros
 from topheavy.kernel.forcing import (
     NO_MOTION,
     RECORD,

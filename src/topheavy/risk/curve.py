@@ -113,18 +113,9 @@ def points_between(shares: Array) -> NDArray[np.int64]:
 
 
 def rises_past(share: float, terms: Array) -> Array:
-    """Return the intensities at which the curves rise past a share; NaN where they do not.
+    """Return the intensities at which the curves of `fit` rise past a share; NaN where they do not.
 
-    Parameters
-    ----------
-    share : float
-        Between 0 and 1.
-    terms : ndarray, shape (..., 3)
-        Of `fit`.
-
-    Returns
-    -------
-    ndarray, shape (...)
+    The terms have the shape (..., 3), the intensities the shape (...).
     """
     a, b, c = np.moveaxis(terms, -1, 0)
     a = a - ndtri(share)
@@ -138,18 +129,7 @@ def rises_past(share: float, terms: Array) -> Array:
 def medians(levels: ArrayLike, terms: Array) -> Array:
     """Return the median capacities: the intensities at which the curves rise past 1/2.
 
-    A median outside the levels is NaN.
-
-    Parameters
-    ----------
-    levels : array_like, shape (n,)
-        Ascending.
-    terms : ndarray, shape (..., 3)
-        Of `fit`.
-
-    Returns
-    -------
-    ndarray, shape (...)
+    A median outside the levels, which ascend, is NaN. The terms are those of `fit`.
     """
     levels, middle = np.asarray(levels), rises_past(0.5, terms)
     return np.where((levels[0] < middle) & (middle < levels[-1]), middle, math.nan)

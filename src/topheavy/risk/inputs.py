@@ -41,7 +41,10 @@ def checked_motions(motions: Sequence[Motion]) -> list[Motion]:
             )
     places: dict[Hashable, int] = {}
     for place, motion in enumerate(motions):
-        first = places.setdefault(_content(motion), place)
+        content: Hashable = motion
+        if isinstance(motion, Record):
+            content = motion.time_step, motion.acceleration.tobytes()
+        first = places.setdefault(content, place)
         if first != place:
             checks.warn(
                 f"motions[{place}] equals motions[{first}], and the intervals count both: expected "
@@ -49,13 +52,6 @@ def checked_motions(motions: Sequence[Motion]) -> list[Motion]:
             )
             break
     return list(motions)
-
-
-def _content(motion: Motion) -> Hashable:
-    """Return what makes two motions equal: a pulse itself, of a record step and samples."""
-    if isinstance(motion, Pulse):
-        return motion
-    return motion.time_step, motion.acceleration.tobytes()
 
 
 def checked_vertical(vertical: Sequence[Record] | None, motions: int) -> list[Record | None]:

@@ -42,17 +42,7 @@ def means_within(
     """Return the means of outcomes of shape (motions, ...), resampled within each group of motions.
 
     Every resample has as many motions of a group as the ensemble has: the scatter between groups
-    is not in it.
-
-    Parameters
-    ----------
-    outcomes : array_like, shape (motions, ...)
-    groups : sequence, of length motions
-        For instance the names of the earthquakes.
-
-    Returns
-    -------
-    ndarray, shape (1 + resamples, ...)
+    is not in it. The shape is (1 + resamples, ...).
     """
     outcomes, members = np.asarray(outcomes), dict[Hashable, list[int]]()
     for motion, group in enumerate(groups):
@@ -66,18 +56,9 @@ def means_within(
 def interval(values: Array, confidence: float) -> tuple[Array, Array, Array]:
     """Return the value of the ensemble and both ends of its interval: percentiles of resamples.
 
-    Undefined resamples (NaN) count as −∞ for the lower end and as +∞ for the upper end. An end that
-    would be infinite is NaN; both are NaN where the value of the ensemble is.
-
-    Parameters
-    ----------
-    values : ndarray, shape (1 + resamples, ...)
-    confidence : float
-        Between 0 and 1.
-
-    Returns
-    -------
-    value, low, high : ndarray, shape (...)
+    The first axis of the values has the ensemble and its resamples. Undefined resamples (NaN) count
+    as −∞ for the lower end and as +∞ for the upper end. An end that would be infinite is NaN; both
+    are NaN where the value of the ensemble is.
     """
     tail = (1.0 - confidence) / 2.0
     unknown = np.isnan(values[1:])
