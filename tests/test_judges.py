@@ -55,7 +55,6 @@ def named(part, path):
          check.of_another_run),
         ("docs/verdicts.md", "refuted", "confirmed", check.rewritten),
         ("docs/explorer.html", "9.81", "8.91", check.rewritten),
-        ("docs/functions.html", "RockingBlock", "RockingBloc", check.rewritten),
         ("docs/certificates.jsonl.gz", '"survives"', '"overturns"', check.mislabelled),
         ("docs/certificates.jsonl.gz", "0.272822", "0.272823", check.mislabelled),
         ("tests/reference/proven.csv", "survives", "overturns", check.mislabelled),

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from documents.explorer import checked_cases, page, titles
+from documents.explorer import checked_cases, titles
 from topheavy.ground.shapes import SHAPES
 
 TYPE = """(() => {
@@ -13,11 +13,6 @@ TYPE = """(() => {
   field.dispatchEvent(new Event("input", {bubbles: true}));
   return document.getElementById({0} + "-error").textContent;
 })()"""
-
-
-def test_same_bytes_twice(text, records, request):
-    assert page(request.config.rootpath / "src/explorer", records) == text
-    assert "{{" not in re.sub(r"\$\{\{", "", text.split("<script>")[0])
 
 
 def test_promise_that_the_library_does_not_keep_stops_the_build():

@@ -50,6 +50,7 @@ def test_outcomes_are_shown_before_the_film(browser):
     assert browser.do(OUTCOMES) == 3 * [["overturns", "overturns", "overturns"]]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("number", range(6))
 def test_case_is_played_without_a_fault(browser, number):
     browser.open(moves=True)
@@ -222,6 +223,7 @@ def test_pose_is_that_of_the_instant(page, responses, time):
         assert math.radians(degrees) == pytest.approx(expected, abs=0.01 * COLUMN.slenderness)
         assert pivot == pytest.approx(math.copysign(COLUMN.half_width, degrees))
         angles.append(math.radians(degrees))
+    assert page.do("scene.cap.getBBox().height") == pytest.approx(0.2 * COLUMN.half_height)
     u, minus_v = numbers_in(page.do("scene.cap.getAttribute('transform')"))
     assert (u, -minus_v) == pytest.approx(cap_displacement(COLUMN, angles[-1]), abs=1e-9)
     assert page.do("document.getElementById('clock').textContent") == f"{time:.2f} s"

@@ -121,27 +121,8 @@ def test_velocity_ratio_at_impact_is_that_of_the_paper(bodies, rate):
     assert after[6:] == pytest.approx([u, v, 0.0], abs=1e-12 * bodies.span)
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"span": 0.22}, "span is 0.22 m; expected more than the width of a column, 0.22 m"),
-        ({"span": -1.0}, "span is -1 m; expected more than zero"),
-        ({"span": "wide"}, "span is 'wide'; expected a number"),
-        ({"cap_depth": 0.0}, "cap_depth is 0 m; expected more than zero"),
-        ({"cap_depth": math.nan}, "cap_depth is nan; expected a finite number"),
-        ({"frame": RockingFrame(TRILITH, math.inf)}, "mass_ratio is ∞; expected a finite one"),
-        ({"frame": TRILITH}, "frame is Column.*; expected a RockingFrame"),
-    ],
-)
-def test_bad_lengths_are_refused_by_name(change, message):
-    good = {"frame": RockingFrame(TRILITH, 0.434), "span": 1.2, "cap_depth": 0.3}
-    with pytest.raises(ValueError, match=message):
-        ThreeBodies(**(good | change))
-
-
 FRAME = RockingFrame(TRILITH, 0.434)
 SHAPE = {"span": 1.2, "cap_depth": 0.3}
-MASS_RATIOS = (0.01, 0.434, 1.0, 10.0, 100.0)
 PULSES = (
     Pulse("one-sine", 0.6, 8.0),
     Pulse("one-cosine", -0.5, 20.0),
@@ -165,7 +146,8 @@ def energy(history, frame):
     return history.velocity**2 @ mass / 2 + STANDARD_GRAVITY * lift
 
 
-@pytest.mark.parametrize("mass_ratio", MASS_RATIOS)
+@pytest.mark.sampled(8)
+@pytest.mark.parametrize("mass_ratio", WITH_NO_CAP[1:])
 @pytest.mark.parametrize("pulse", PULSES, ids=lambda pulse: f"{pulse.shape}-{pulse.amplitude}")
 def test_three_bodies_move_as_the_rocking_block(mass_ratio, pulse):
     frame = RockingFrame(TRILITH, mass_ratio)
