@@ -82,11 +82,6 @@ def _message(error: Any, model: type[BaseModel]) -> str:
 
 def names_of(model: type[BaseModel]) -> list[str]:
     """Return the keys of a model and of the models inside it."""
-    names = []
-    for name, field in model.model_fields.items():
-        names.append(name)
-        inner = [field.annotation, *getattr(field.annotation, "__args__", ())]
-        for each in inner:
-            if isinstance(each, type) and issubclass(each, BaseModel):
-                names += names_of(each)
-    return names
+    schema = model.model_json_schema()
+    parts = [schema, *schema.get("$defs", {}).values()]
+    return [name for part in parts for name in part.get("properties", ())]

@@ -17,9 +17,8 @@ from matplotlib.figure import Figure
 
 SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 
-# Ink and greys for what has no meaning of its own, one accent, and one hue by lightness.
+# Ink and greys for what has no meaning of its own, and one hue by lightness.
 INK, GREY, PALE, PAPER = "#1a1a1a", "#737373", "#f2f2f2", "#ffffff"
-ACCENT = "#c8501a"
 LIGHTEST, DARKEST = (0.36, 0.58, 0.80), (0.02, 0.12, 0.32)  # 3 to 1 on white, and more
 
 PULSES = {

@@ -14,21 +14,7 @@ from html.parser import HTMLParser
 from operator import getitem
 from typing import Any, NamedTuple
 
-WORDS = [
-    "no",
-    "one",
-    "two",
-    "three",
-    "four",
-    "five",
-    "six",
-    "seven",
-    "eight",
-    "nine",
-    "ten",
-    "eleven",
-    "twelve",
-]
+WORDS = "no one two three four five six seven eight nine ten eleven twelve"
 
 
 class Input:
@@ -52,7 +38,8 @@ class Input:
     def __format__(self, how: str) -> str:
         if how == "count":
             count = len(self.content)
-            return f"⟨{self.path.rstrip('.')}|{WORDS[count] if count < len(WORDS) else count}⟩"
+            number = dict(enumerate(WORDS.split())).get(count, count)
+            return f"⟨{self.path.rstrip('.')}|{number}⟩"
         if isinstance(self.content, list | dict):
             keys = self.content if isinstance(self.content, dict) else range(len(self.content))
             return and_list(format(self[key], how) for key in keys)

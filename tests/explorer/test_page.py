@@ -117,12 +117,6 @@ def test_everything_is_done_with_the_keyboard_only(browser, tmp_path, square):
     browser.press("Enter", 13, "\r")
     assert browser.do("CASES.indexOf(encode(state))") == 1
     browser.settle()
-    reach(browser, "at.id === 'height'")
-    browser.ask("Input.insertText", text="5")  # in place of what is selected
-    assert browser.do("state.height") == 5
-    reach(browser, "at.name === 'cap'")
-    browser.press("ArrowDown", 40)
-    assert browser.do("state.cap") == "fixed"
     reach(browser, "at.id === 'shape'")
     browser.press("End", 35)
     assert browser.do("state.shape") == "record"
