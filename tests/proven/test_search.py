@@ -52,13 +52,15 @@ def test_both_sides_of_each_minimum_are_proven(structure):
                 assert certificate["impacts"] == ending.number_of_impacts
 
 
-@pytest.mark.parametrize("shape", ["one-sine", "one-cosine"])
-def test_outcomes_under_several_cycles_are_those_of_the_kernel(shape):
+@pytest.mark.parametrize(
+    ("shape", "block"), [("one-sine", BLOCK), ("one-cosine", BLOCK.linear())], ids=str
+)
+def test_outcomes_under_several_cycles_are_those_of_the_kernel(shape, block):
     seen = set()
     for scale in (1.2, 2.1, 3.2, 5.0):
-        pulse = th.Pulse(shape, scale * BLOCK.uplift_acceleration, 7.0, cycles=3)
-        outcome = again(certified(BLOCK, pulse))
-        assert (outcome == "overturns") == th.judge(BLOCK, pulse).overturned
+        pulse = th.Pulse(shape, scale * block.uplift_acceleration, 7.0, cycles=3)
+        outcome = again(certified(block, pulse))
+        assert (outcome == "overturns") == th.judge(block, pulse).overturned
         seen.add(outcome)
     assert len(seen) == 2
 
