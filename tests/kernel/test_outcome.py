@@ -41,11 +41,10 @@ def shaken(block, shape, strength, ratio, tolerance=TOLERANCE):
     return outcome_of(there, waveform, ratio, strength * there.uplift_level, tolerance=tolerance)
 
 
-def aloft(block, rotation, velocity, push=None):
-    """A block on resting ground, or under a constant push."""
-    there = oscillator(block)
+def aloft(block, rotation, velocity):
+    """A block on resting ground."""
     sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(rotation), math.cos(rotation))
-    push = -there.uplift_level if push is None else push
+    push = -oscillator(block).uplift_level
     return State(0.0, 1.0, rotation, velocity, sine, cosine, push, 0.0, 1.0, 0.0)
 
 
