@@ -11,13 +11,9 @@ from steps.shared import plain
 from steps.shared.cases import column_of, pulse_on
 from steps.shared.linear import simulate_linear_exact
 from topheavy import Column, Pulse, RockingFrame, judge, read_record, simulate
-from topheavy.bodies.structures import SIMPLIFICATIONS, simplified
+from topheavy.bodies.structures import simplified
 
 AGREE = 1e-6  # of α, between solvers
-
-
-def models_of(frame):
-    return {"exact": frame.block()} | {name: simplified(frame, name) for name in SIMPLIFICATIONS}
 
 
 def histories(frame, settings, record, tightened):
@@ -32,7 +28,7 @@ def histories(frame, settings, record, tightened):
         times = np.linspace(0.0, duration, 1501)
         course = {"motion": motion, "time": times, "acceleration": excitation.excitation(times)}
         for model in ("exact", "all"):
-            block = models_of(frame)[model]
+            block = simplified(frame)[model]
             response = simulate(block, excitation, samples=times)
             # Beyond 2α differences grow; the outcomes are compared, too.
             upright = np.abs(response.rotation) <= 2.0 * frame.slenderness
@@ -65,7 +61,7 @@ def errors(settings):
         cells = []
         for degrees in settings["slendernesses"]:
             column = column_of(degrees)
-            models = models_of(RockingFrame(column, gamma))
+            models = simplified(RockingFrame(column, gamma))
             shown = models if pulse == first else {name: models[name] for name in ("exact", "all")}
             for ratio in grid(settings["amplitudes"]):
                 motion = pulse_on(column, **pulse, amplitude=ratio)
@@ -98,7 +94,7 @@ def outcomes(settings):
     column = column_of(settings["slenderness"])
     frame = RockingFrame(column, settings["mass_ratio"])
     models = {
-        name: block for name, block in models_of(frame).items() if not name.startswith("massless")
+        name: block for name, block in simplified(frame).items() if not name.startswith("massless")
     }
     rows = []
     for ratio, amplitude in product(

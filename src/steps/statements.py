@@ -123,7 +123,7 @@ def oscillator(frame, pulse):
         )
         yield "period_depends_on_amplitude", f"quarter period from {start} α, 1/p", by_energy
 
-    nearly, limit = RockingFrame(column, 1e9).block().linear(), simplified(frame, "all")
+    nearly, limit = RockingFrame(column, 1e9).block().linear(), simplified(frame)["all"]
     for name in ("frequency_parameter", "restitution"):
         apart = abs(getattr(nearly, name) / getattr(limit, name) - 1.0)
         yield "massless_columns_are_a_limit", name, power_above(apart, TOLERANCE)

@@ -188,13 +188,13 @@ FRAME = RockingFrame(WIDE, 1.0)
     ],
 )
 def test_each_simplification_changes_what_it_names_and_nothing_else(simplification, changed):
-    exact, simple = FRAME.block(), simplified(FRAME, simplification)
+    exact, simple = FRAME.block(), simplified(FRAME)[simplification]
     names = RockingBlock.__dataclass_fields__
     assert {name for name in names if getattr(exact, name) != getattr(simple, name)} == changed
 
 
 def test_massless_columns_have_the_limits_of_the_paper():
-    simple = simplified(FRAME, "all")
+    simple = simplified(FRAME)["all"]
     p, alpha = WIDE.frequency_parameter, WIDE.slenderness
     assert simple.frequency_parameter == pytest.approx(p * math.sqrt(2 / 3), rel=1e-15)
     assert simple.restitution == pytest.approx(math.cos(2 * alpha), rel=1e-15)

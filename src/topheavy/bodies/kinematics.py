@@ -21,14 +21,7 @@ Array = NDArray[np.float64]
 
 
 def cap_displacement(column: Column, rotation: ArrayLike) -> tuple[Array, Array]:
-    """Return the displacements u (to the right) and v (upward) of the cap beam, m: Eqs. (4), (7).
-
-    Examples
-    --------
-    >>> u, v = cap_displacement(th.Column(0.5, 3.0), 0.05)
-    >>> round(float(u), 4), round(float(v), 4)
-    (0.3011, 0.0425)
-    """
+    """Return the displacements u (right) and v (up) of the cap beam, m: Eqs. (4), (7)."""
     side, lean = _side_and_lean(column, rotation)
     alpha, diagonal = column.slenderness, 2.0 * column.size
     u = side * diagonal * (np.sin(alpha) - np.sin(lean))  # Eq. (4)

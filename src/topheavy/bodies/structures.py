@@ -244,6 +244,8 @@ class RockingFrame:
 class Structure(Protocol):
     """A structure that has a rocking block: every function of the dynamics accepts it.
 
+    `Column`, `RockingFrame`, `FixedMassColumn`, `MonolithicPortal`, `RockingBlock`, or your own.
+
     >>> [structure.block().slenderness for structure in (th.Column(0.5, 3.0), th.Column(1.0, 6.0))]
     [0.16514867741462683, 0.16514867741462683]
     """
@@ -356,21 +358,17 @@ def rocking_block(structure: Any, restitution: float | None, largest: float) -> 
 # columns, γ → ∞. The paper does not say which impact law they used; we assume Eq. (25) in the same
 # limit, √r = cos 2α. Each of the three simplifications can be applied alone.
 
-SIMPLIFICATIONS = ("linearised", "massless frequency", "massless restitution", "all")
-"""The equation of motion; p̂ of γ = ∞; √r of γ = ∞; and the three together, Allen et al. (1986)."""
 
+def simplified(frame: RockingFrame) -> dict[str, RockingBlock]:
+    """Return the exact block of a frame, and those with each simplification and with all three.
 
-def simplified(frame: RockingFrame, simplification: str) -> RockingBlock:
-    """Return the block of a frame under one of `SIMPLIFICATIONS`, or raise ValueError."""
+    They are the equation of motion, p̂ of γ = ∞, and √r of γ = ∞; together, Allen et al. (1986).
+    """
     exact, massless = frame.block(), RockingFrame(frame.column, math.inf).block()
-    if simplification == "linearised":
-        return exact.linear()
-    if simplification == "massless frequency":
-        return massless.with_restitution(exact.restitution)
-    if simplification == "massless restitution":
-        return exact.with_restitution(massless.restitution)
-    if simplification == "all":
-        return massless.linear()
-    raise ValueError(
-        f"simplification is {simplification!r}; expected one of {', '.join(SIMPLIFICATIONS)}"
-    )
+    return {
+        "exact": exact,
+        "linearised": exact.linear(),
+        "massless frequency": massless.with_restitution(exact.restitution),
+        "massless restitution": exact.with_restitution(massless.restitution),
+        "all": massless.linear(),
+    }

@@ -235,7 +235,6 @@ def overturning_spectrum(
     Parameters
     ----------
     structure : Structure, or several in a list or a mapping from names
-        RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     shape : str
         A shape of `Pulse` that ends.
     periods : array_like, shape (n,)

@@ -32,7 +32,6 @@ def overturning_map(
     Parameters
     ----------
     structure : Structure
-        RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     motion : str or Record
         A shape of `Pulse` that ends ("harmonic" does not), or a record.
     scales : array_like

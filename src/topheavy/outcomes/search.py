@@ -67,7 +67,6 @@ def overturned_by(
     Parameters
     ----------
     structure : Structure, or m structures in a list or a mapping from names
-        RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     excitation : Pulse or Record
         One that ends.
     factors : array_like, shape (n,)

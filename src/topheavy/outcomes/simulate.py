@@ -70,7 +70,6 @@ def simulate(
     Parameters
     ----------
     structure : Structure
-        RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     excitation : Pulse or Record, optional
     rotation, velocity : float
         θ (rad) and θ̇ (rad/s) at t = 0, signed.

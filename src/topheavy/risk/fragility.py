@@ -174,7 +174,6 @@ def fragility(
     Parameters
     ----------
     structures : Structure, or several in a list or a mapping from names
-        Column, RockingFrame, FixedMassColumn, MonolithicPortal, RockingBlock.
     motions : sequence of Record
         Also of Pulse, if measure is a function.
     levels : array_like, shape (n,)
