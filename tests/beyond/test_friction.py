@@ -47,11 +47,8 @@ def test_required_friction_is_that_of_three_bodies_and_of_uplift_at_least(gamma)
 
 def test_three_bodies_of_another_bay_disagree(monkeypatch):
     forces = friction.forces_at
-    monkeypatch.setattr(
-        friction,
-        "forces_at",
-        lambda frame, cap, *motion: forces(frame, Cap(2.4, 0.5), *motion),
-    )
+    other = lambda frame, cap, *motion: forces(frame, Cap(2.4, 0.5), *motion)  # noqa: E731
+    monkeypatch.setattr(friction, "forces_at", other)
     row = {"shape": "one-sine", "frequency_ratio": 4.0, "amplitude": 2.0}
     with pytest.raises(SystemExit, match="differs by"):
         friction.compare(RockingFrame(COLUMN, 1.0), CAP, row, SETTINGS)

@@ -295,19 +295,14 @@ def test_one_velocity_or_change_is_enough_to_refute(end, low, false):
 def test_counts_are_of_outcomes_that_are_known(monkeypatch):
     outcomes = {0.0: [1, 1, -1, 0], 1.0: [1, -1, 1, 1]}
     monkeypatch.setattr(records, "read_record", lambda path: Record(0.01, [0.1, 0.2, 0.1], path))
-    monkeypatch.setattr(
-        records, "overturned", lambda frame, *_: np.array(outcomes[frame.mass_ratio])
-    )
+    known_of = lambda frame, *_: np.array(outcomes[frame.mass_ratio])  # noqa: E731
+    monkeypatch.setattr(records, "overturned", known_of)
     monkeypatch.setattr(records, "check_sample", list)
     monkeypatch.setattr(records, "capacities", lambda *_: [])
-    settings = {
-        "mass_ratios": [0.0, 1.0],
-        "slendernesses": [10.0],
-        "sizes": {"lowest": 1.0, "highest": 2.0, "points": 1},
-        "factors": {"lowest": 1.0, "highest": 4.0, "points": 4},
-        "capacity": {"structure": "temple"},
-        "sample": 1,
-    }
+    grids = {"lowest": 1.0, "highest": 2.0}
+    settings = {"mass_ratios": [0.0, 1.0], "slendernesses": [10.0], "sample": 1}
+    settings |= {"sizes": grids | {"points": 1}, "factors": grids | {"points": 4}}
+    settings |= {"capacity": {"structure": "temple"}}
     made = records.compute(settings, {"tightened": 1e-12}, CONFIG["structures"], ["one"])
     (row,) = made["table"]
     names = ("compared", "decided", "both", "only_lighter", "only_heavier")
@@ -354,11 +349,8 @@ def test_outcomes_that_a_nudge_changes_are_not_known():
         middle = 0.5 * (low + high)
         fell = judge(COLUMN, record.scaled(middle)).overturned
         low, high = (low, middle) if fell else (middle, high)
-    assert records.overturned(COLUMN, record, np.array([0.1, low, 2.0]), 3e-12).tolist() == [
-        -1,
-        0,
-        1,
-    ]
+    found = records.overturned(COLUMN, record, np.array([0.1, low, 2.0]), 3e-12)
+    assert found.tolist() == [-1, 0, 1]
 
 
 def test_a_solver_that_differs_stops_the_step(monkeypatch):

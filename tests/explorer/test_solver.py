@@ -72,18 +72,14 @@ def response(block, state, records, scale=1.0):
 
 
 def is_near_boundary(block, state, records):
-    outcomes = {
-        response(block, state, records, scale).overturned for scale in (1.0 - NEAR, 1.0, 1.0 + NEAR)
-    }
-    return len(outcomes) > 1
+    scales = (1.0 - NEAR, 1.0, 1.0 + NEAR)
+    return len({response(block, state, records, scale).overturned for scale in scales}) > 1
 
 
 def is_conditioned(block, state, records):
     """Whether the peak stays as it is under a slight change of the motion."""
-    peaks = [
-        response(block, state, records, scale).peak_rotation
-        for scale in (1 - SLIGHT, 1, 1 + SLIGHT)
-    ]
+    scales = (1.0 - SLIGHT, 1.0, 1.0 + SLIGHT)
+    peaks = [response(block, state, records, scale).peak_rotation for scale in scales]
     return np.ptp(peaks) < 0.1 * CLOSE * block.slenderness
 
 
@@ -131,13 +127,9 @@ def test_spectrum_is_the_map_of_the_library(browser, shape):
     column = th.Column(0.5, 3.0)
     ratios = 0.5 + 5.5 * (np.arange(columns) + 0.5) / columns
     amplitudes = 0.93 * (12.0 / 0.93) ** ((np.arange(rows) + 0.5) / rows)
+    axes = ratios * column.frequency_parameter, amplitudes * column.uplift_acceleration
     alone, framed = (
-        th.overturning_map(
-            structure,
-            shape,
-            ratios * column.frequency_parameter,
-            amplitudes * column.uplift_acceleration,
-        ).overturned
+        th.overturning_map(structure, shape, *axes).overturned
         for structure in (column, th.RockingFrame(column, 1.0))
     )
     assert set(codes) == {0, 1, 2, 3}

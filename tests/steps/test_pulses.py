@@ -21,31 +21,31 @@ from topheavy.forces import base_shear_slope
 
 PULSE = th.Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
 TIGHT = 3e-12
+
+
+def grid(lowest, highest, points):
+    return {"lowest": lowest, "highest": highest, "points": points}
+
+
 SPECTRA = CONFIG["spectra"] | {
     "slendernesses": [5.0],
     "shapes": ["one-cosine"],
     "mass_ratios": [0.0, 1.0, math.inf],
-    "frequency_ratios": {"lowest": 1.25, "highest": 4.25, "points": 13},
-    "cycles": CONFIG["spectra"]["cycles"]
-    | {"numbers": [3], "frequency_ratios": {"lowest": 4.0, "highest": 5.0, "points": 2}},
+    "frequency_ratios": grid(1.25, 4.25, 13),
+    "cycles": CONFIG["spectra"]["cycles"] | {"numbers": [3], "frequency_ratios": grid(4.0, 5.0, 2)},
     "sample": {"points": 6, "seed": 1},
 }
+RICKER = {"shapes": ["ricker-symmetric"]}
 VASE = CONFIG["vase"] | {
     "mass_ratios": [0.0, 1.0, math.inf],
     "shapes": ["one-cosine"],
-    "grids": [
-        {
-            "shapes": ["ricker-symmetric"],
-            "mass_ratios": [1.0],
-            "frequency_ratios": {"lowest": 2.0, "highest": 6.0, "points": 2},
-        }
-    ],
+    "grids": [RICKER | {"mass_ratios": [1.0], "frequency_ratios": grid(2.0, 6.0, 2)}],
     "sample": 1,
 }
 UPLIFT = CONFIG["uplift"] | {
     "mass_ratios": [0.0, 1.0],
     "shapes": ["one-sine"],
-    "frequency_ratios": {"lowest": 4.0, "highest": 8.0, "points": 2},
+    "frequency_ratios": grid(4.0, 8.0, 2),
     "amplitudes": [1.1, 3.0, 9.0],
     "sample": 1,
 }
@@ -125,10 +125,7 @@ def test_findings_of_spectra(tables):
     assert not same["only_the_heavier_overturns"]["holds"]
     swapped = tables["spectra"].replace({"mass_ratio": {1.0: math.inf, math.inf: 1.0}})
     found = spectra.findings(swapped, tables["areas"], **rest)
-    assert broken(found) - KNOWN == {
-        "minimum_rises_with_mass",
-        "never_caused_without_impact",
-    }
+    assert broken(found) - KNOWN == {"minimum_rises_with_mass", "never_caused_without_impact"}
     assert found["heavier_is_more_stable"]["holds_when"] is False
     harmful = tables["areas"].rename(columns={"prevented": "caused", "caused": "prevented"})
     found = spectra.findings(tables["spectra"], harmful, **rest)
@@ -137,11 +134,10 @@ def test_findings_of_spectra(tables):
     assert "caused_by_the_size" in broken(spectra.findings(tables["spectra"], alike, **rest))
 
 
-SEVERAL = {
-    "slendernesses": [9.462322],
-    "mass_ratios": [0.0, 0.25, 0.5, 1.0, 2.0, math.inf],
-    "cycles": SPECTRA["cycles"] | {"resolution": 0.02},
-}
+def several(mass_ratios, ratio):
+    cycles_of = {"resolution": 0.02, "frequency_ratios": grid(ratio, ratio + 1.0, 1)}
+    cycles_of = SPECTRA["cycles"] | cycles_of
+    return {"slendernesses": [9.462322], "mass_ratios": mass_ratios, "cycles": cycles_of}
 
 
 @pytest.mark.parametrize(
@@ -154,9 +150,8 @@ SEVERAL = {
 )
 def test_minimum_falls_under_three_cycles_of_a_sine(ratio, known):
     """The values are those of a code that shares no line with ours."""
-    gammas, one = sorted(known), {"lowest": ratio, "highest": ratio + 1.0, "points": 1}
-    settings = SEVERAL | {"mass_ratios": gammas}
-    settings["cycles"] = SEVERAL["cycles"] | {"frequency_ratios": one}
+    gammas = sorted(known)
+    settings = several(gammas, ratio)
     table = as_written({"table": cycles.minima(settings)})["table"]
     assert table.minimum.to_list() == pytest.approx([known[one] for one in gammas], abs=5e-4)
     found = cycles.finding(table, settings)
@@ -169,9 +164,7 @@ def test_minimum_falls_under_three_cycles_of_a_sine(ratio, known):
 
 
 def test_frame_falls_below_its_column_under_three_cycles_of_a_sine():
-    one = {"lowest": 4.4375, "highest": 5.0, "points": 1}
-    settings = SEVERAL | {"mass_ratios": [0.0, 0.25, math.inf]}
-    settings["cycles"] = SEVERAL["cycles"] | {"frequency_ratios": one}
+    settings = several([0.0, 0.25, math.inf], 4.4375)
     table = cycles.minima(settings)
     assert broken(cycles.finding(table, settings)) == {"cycles_frame_is_above_its_column"}
     wrong = cycles.falls(table, [(0.0, 0.25)]).assign(minimum=2.1)
