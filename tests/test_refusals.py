@@ -40,7 +40,6 @@ SCALED = {"vertical": UP, "scale_vertical": True}
 SHAKEN = {"structure": FRAME, "excitation": SHAKING}
 MAP = {"structure": FRAME, "scales": [1.0, 2.0], "amplitudes": [0.25]}
 TIGHT = {"tolerance": 2.0**-30}
-WINDOW = {"window": 0.0625, "share": 0.5}
 RANGE = {"scale_range": (0.5, 2.0), **SCALED}
 CURVES = {"structures": [COLUMN], "motions": MOTIONS, "levels": [0.5, 1.0], "measure": "PGV"}
 CURVES |= {"vertical": [UP] * 4, "scale_vertical": True, "groups": [1, 1, 2, 2], "seed": 2}
@@ -88,8 +87,8 @@ CALLS = [
     call(th.overturning_map, **MAP, motion="one-sine"),
     call(th.overturning_map, **MAP, motion=SHAKING),
     call(th.overturning_spectrum, structure=FRAME, **SINES),
-    call(th.capacity, structure=FRAME, record=SHAKING, **WINDOW, **SCALED),
-    call(th.Capacity, **OUTCOMES, **WINDOW),
+    call(th.capacity, structure=FRAME, record=SHAKING, **SCALED),
+    call(th.Capacity, **OUTCOMES, share=0.5),
     call(th.fragility, **CURVES),
     call(th.contact_forces, structure=FRAME, cap=CAP, response=RESPONSE, motion=SHAKING),
     call(th.impact_impulses, frame=FRAME, cap=CAP, velocity=0.5),
@@ -268,8 +267,6 @@ BAD = {  # what the message begins with or has, and what is called
     "factors do not increase": lambda: th.Capacity([1.0, 1.0], [True, True]),
     "factors goes down to 0;": lambda: th.Capacity([0.0, 1.0], [True, True]),
     "overturned has shape (1,); expected (2,)": lambda: th.Capacity([1.0, 1.001], [True]),
-    "window is 0; expected more than zero": lambda: th.Capacity(**GRID, window=0.0),
-    "window is 1.5; expected a number from 0 to 1": lambda: th.Capacity(**GRID, window=1.5),
     "share is 1.1; expected a number from 0 to 1": lambda: th.Capacity(**GRID, share=1.1),
     "the block is not linearised": lambda: closed(COLUMN.block(), PULSE),
     ", ".join(ELEMENTARY): lambda: closed(COLUMN.block().linear(), RICKER),

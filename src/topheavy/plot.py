@@ -16,7 +16,7 @@ from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.bodies.kinematics import outlines
 from topheavy.bodies.response import Response
 from topheavy.bodies.structures import RockingFrame, Structure
-from topheavy.outcomes.capacity import Capacity
+from topheavy.outcomes.capacity import WINDOW, Capacity
 from topheavy.risk.fragility import Fragility
 
 if TYPE_CHECKING:
@@ -144,7 +144,7 @@ def capacity(result: Capacity, *, label: str = "", axes: Axes | None = None) -> 
     """
     _check_result("capacity", result)
     axes = _axes(axes)
-    (line,) = axes.plot(result.factors, result.shares(result.window), label=label or "record")
+    (line,) = axes.plot(result.factors, result.shares(WINDOW), label=label or "record")
     axes.axhline(result.share, color="0.5", linestyle=":", linewidth=0.8)
     low, high = result.range
     if not math.isnan(result.factor):
@@ -153,7 +153,7 @@ def capacity(result: Capacity, *, label: str = "", axes: Axes | None = None) -> 
         axes.axvspan(low, last, color=line.get_color(), alpha=0.15, linewidth=0.0)
     axes.set(
         xlabel="Factor on the record (–)",
-        ylabel=f"Share that overturns within {100.0 * result.window:g} % (–)",
+        ylabel=f"Share that overturns within {100.0 * WINDOW:g} % (–)",
         ylim=(-0.02, 1.02),
     )
     axes.legend()

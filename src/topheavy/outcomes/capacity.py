@@ -14,7 +14,10 @@ from topheavy.ground.excitation import checked_excitation
 from topheavy.ground.records import Record, both_records
 from topheavy.outcomes.search import overturned_by
 
-WINDOWS = (0.025, 0.05, 0.1, 0.2)
+WINDOW = 0.05
+"""Width of the window of the capacity that is stated, relative to its first factor."""
+
+WINDOWS = (0.025, WINDOW, 0.1, 0.2)
 """Widths of the windows that `Capacity.range` compares."""
 
 MIN_STEPS = 10
@@ -43,8 +46,6 @@ class Capacity:
         Positive and increasing, with ten steps or more in a window of 2.5 %.
     overturned : ndarray of bool, shape (n,)
         The outcome under each factor.
-    window : float
-        Width of the window, relative to its first factor; up to 1.
     share : float
         Of the factors in the window that have to overturn.
     unit_acceleration : float
@@ -60,7 +61,6 @@ class Capacity:
 
     factors: NDArray[np.float64]
     overturned: NDArray[np.bool_]
-    window: float = 0.05
     share: float = 0.9
     unit_acceleration: float = math.nan
 
@@ -81,11 +81,10 @@ class Capacity:
             unit = checks.not_negative("unit_acceleration", unit)
         checks.set_fields(
             self,
-            window=checks.positive("window", checks.fraction("window", self.window)),
             share=checks.positive("share", checks.fraction("share", self.share)),
             unit_acceleration=unit,
         )
-        self.shares(min(*WINDOWS, self.window))  # refuses a grid that is too coarse
+        self.shares(WINDOWS[0])  # refuses a grid that is too coarse
 
     def shares(self, window: float) -> NDArray[np.float64]:
         """Return of each factor the share that overturns in the window that begins with it.
@@ -125,8 +124,8 @@ class Capacity:
 
     @property
     def factor(self) -> float:
-        """The capacity, as a factor; NaN if there is none up to the last factor."""
-        return self.over(self.window)
+        """The capacity over a window of 5 %, as a factor; NaN if there is none."""
+        return self.over(WINDOW)
 
     @property
     def acceleration(self) -> float:
@@ -142,7 +141,7 @@ class Capacity:
     def __repr__(self) -> str:
         """Return a sentence with the capacity and its range over windows."""
         first, last = (f"{factor:.3g}" for factor in self.factors[[0, -1]])
-        window, share = f"{100 * self.window:g} %", f"{100 * self.share:g} %"
+        window, share = f"{100 * WINDOW:g} %", f"{100 * self.share:g} %"
         if math.isnan(self.factor):
             return (
                 f"No capacity from a factor of {first} to {last}: in no window of {window} do "
@@ -162,8 +161,6 @@ def capacity(
     structure: Structure,
     record: Record,
     factors: ArrayLike | None = None,
-    window: float = 0.05,
-    share: float = 0.9,
     *,
     vertical: Record | None = None,
     scale_vertical: bool = True,
@@ -180,10 +177,6 @@ def capacity(
     factors : array_like, shape (n,), optional
         Positive and increasing, with ten steps or more in a window of 2.5 %. By default in steps of
         0.1 % from uplift, until each window has a capacity, or to 100 times uplift.
-    window : float
-        Width of the window, relative to its first factor.
-    share : float
-        Of the factors in the window that have to overturn.
 
     Examples
     --------
@@ -205,7 +198,7 @@ def capacity(
     peak = checks.positive("peak acceleration of the record", record.peak_acceleration)
     if factors is not None:
         scales = checks.axis_values("factors", factors)
-        return Capacity(scales, outcomes(scales), window, share, peak)
+        return Capacity(scales, outcomes(scales), unit_acceleration=peak)
     scale_vertical = checks.truth("scale_vertical", scale_vertical)
     first = block.uplift_acceleration / peak
     last = MAX_OVER_UPLIFT * first
@@ -219,7 +212,6 @@ def capacity(
     while True:
         more = grid[overturned.size : overturned.size + FACTORS_PER_CALL]
         overturned = np.append(overturned, outcomes(more))
-        result = Capacity(grid[: overturned.size], overturned, window, share, peak)
-        known = math.isfinite(result.range[1]) and math.isfinite(result.factor)
-        if known or overturned.size == grid.size:
+        result = Capacity(grid[: overturned.size], overturned, unit_acceleration=peak)
+        if math.isfinite(result.range[1]) or overturned.size == grid.size:
             return result
