@@ -134,7 +134,9 @@ def run(tree, monkeypatch):
     return said
 
 
-def test_what_is_published_is_the_run_with_its_checksums(run):
+@pytest.mark.usefixtures("run")
+def test_what_is_published_is_the_run_with_its_checksums(monkeypatch):
+    monkeypatch.setattr(publish, "findings", lambda *_: published())  # drawn again below
     Path("tests/reference/old.csv").touch()
     Path("results/explorer.html").write_text("another page", "utf-8")
     before = check.SUMS.read_text("utf-8").splitlines()
