@@ -71,6 +71,7 @@ def test_these_and_no_other_discrepancies_are_found(checks):
         assert ("√" in check.printed) == (check.kind in ("bracket", "radical"))
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("statement", EQUATIONS, ids=lambda s: s.name)
 def test_one_wrong_sign_anywhere_is_caught(statement):
     right = statement.meant or statement.printed
