@@ -5,11 +5,8 @@ from palette import CAP, FIXED, FORCE, STONE
 
 from replication.drawing import DOUBLE, GREY, INK, PAPER, gamma, letter, note, shades, sheet
 
-GAP, SPAN, OVERHANG = (
-    5.2,
-    5.0,
-    0.5,
-)  # m: between structures, between axes of columns, of the cap beam
+# m: between structures, between axes of columns, of the cap beam
+GAP, SPAN, OVERHANG = 6.4, 5.0, 0.5
 
 
 def bodies(row):

@@ -351,8 +351,8 @@ def structures(four_structures, moment_rotation):
         name = f"column {2 * h:g} m × {2 * b:g} m" if ratio == 0 else f"frame {gamma(ratio)}"
         size = f"{'R' if ratio else 'size'} = {row.equivalent_size / tall:.3g} R"
         yield 0, f"#000000 “{name} {size} {row.minimum_overturning:.3f} g”", middle, -0.6
-        edge = middle + half + 5.2
-    yield 0, f"{INK} -", [-5.2, edge], [0, 0]
+        edge = middle + half + 6.4
+    yield 0, f"{INK} -", [-6.4, edge], [0, 0]
     for look in (f"{WHITE} hollow o", f"{FORCE} ."):
         yield 0, look, 0, 11.5
     level = four_structures.uplift_acceleration.iloc[-1]
