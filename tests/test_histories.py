@@ -212,6 +212,16 @@ def test_history_at_the_last_bit_is_of_one_piece(block, solve):
             assert rotation.max() < 1.01 * max(0.25, history.peak_rotation)
 
 
+def test_survivor_that_is_integrated_outward_ends_where_it_is_poised():
+    """By rounding alone the exact block at rest at α leaves it, on either side."""
+    for alpha in (0.1, 0.25, 0.3, 0.4):
+        for rotation in (alpha, math.nextafter(alpha, 0.0), math.nextafter(alpha, 1.0)):
+            history = th.simulate(th.RockingBlock(1.0, alpha, 0.9), rotation=rotation)
+            last = abs(history.rotation[np.isfinite(history.rotation)][-1])
+            assert history.overturned == (rotation > alpha)
+            assert last > 0.99 * alpha if history.overturned else last < 1.01 * alpha
+
+
 @BOTH
 @pytest.mark.parametrize("shape", FINITE_SHAPES)
 def test_all_calls_agree_beside_a_boundary(shape, block):
