@@ -105,14 +105,9 @@ class Controls {
       [...file.files].forEach(this.open);
       file.value = "";
     });
-    addEventListener("dragover", (event) => {
-      event.preventDefault();
-      document.body.classList.add("over");
-    });
-    addEventListener("dragleave", (event) => event.relatedTarget ?? document.body.classList.remove("over"));
+    addEventListener("dragover", (event) => event.preventDefault());
     addEventListener("drop", (event) => {
       event.preventDefault();
-      document.body.classList.remove("over");
       [...event.dataTransfer.files].forEach(this.open);
     });
     return made("div", { id: "drop" }, button, " or drop a file, AT2 or CSV. It stays on this computer. ", made("span", { id: "reading", role: "status" }), file,

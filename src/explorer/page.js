@@ -301,8 +301,7 @@ DATA.cases.forEach((each) => {
 });
 byId("copy").addEventListener("click", () => {
   settle();
-  const done = () => (byId("copy").textContent = "Copied");
-  navigator.clipboard.writeText(location.href).then(done, () => prompt("The address of this case", location.href));
+  navigator.clipboard.writeText(location.href).then(() => (byId("copy").textContent = "Copied"), () => prompt("The address of this case", location.href));
 });
 addEventListener("hashchange", () => location.hash.slice(1) !== encode(state) && readAddress());
 addEventListener("resize", () => {

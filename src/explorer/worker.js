@@ -153,6 +153,8 @@ function fallsAt(state, file, plane, blocks, bit, x, y) {
   return failsAt(state, file, bit === COLUMN_FALLS ? alone : other, a, omega);
 }
 
+const crossingAt = (codes, k, bit, up) => (2 * (bit - 1) + up) * codes.length + k; // its place in their list
+
 /** Where each boundary crosses the way from the middle of a cell to that of the next, to the right and
     up, as a share of this way: by bisection. */
 async function crossingsOf({ codes }, columns, falls, turn) {
@@ -175,9 +177,6 @@ async function crossingsOf({ codes }, columns, falls, turn) {
   }
   return crossings;
 }
-
-/** The place of a crossing in their list. */
-const crossingAt = (codes, k, bit, up) => (2 * (bit - 1) + up) * codes.length + k;
 
 let map = { key: "" }; // the last one, which goes on where it was left
 
