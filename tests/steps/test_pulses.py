@@ -232,6 +232,8 @@ def test_narrow_interval_above_uplift_is_not_missed():
     found = minimum(COLUMN, slow)
     finer = minimum(COLUMN, slow, floor=0.0001)
     assert found.factor == pytest.approx(finer.factor, abs=1e-8)
+    (again,) = vase.lowest_by_two_floors([(COLUMN, slow)], 2.0, CONFIG["vase"])
+    assert again.factor == pytest.approx(found.factor, abs=1e-8)
     assert found.width < 0.001 * COLUMN.uplift_acceleration
     assert vase.errors_of([(COLUMN, slow, found)])[0] < 1e-6
 
