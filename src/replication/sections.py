@@ -211,6 +211,7 @@ Paper = section(
         amplitudes=section("resolution", Span),
         again=section("resolution", every=Count),
         finer=section("resolution", below=Positive),
+        near=section("resolution", share=Fraction),
         collapse=section(slow=Positive, covered=Fraction),
         cycles=section("frequency_ratios highest resolution", numbers=Items[Count], wide=Fraction),
         sample=section("points seed"),

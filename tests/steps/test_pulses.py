@@ -14,7 +14,7 @@ from replication.step import findings_text
 from steps import proven, spectra, spectra_shard, uplift, vase
 from steps.shared import cycles
 from steps.shared.histories import history
-from steps.shared.spectrum import FRAME, KEYS, line
+from steps.shared.spectrum import FRAME, KEYS, line, solve
 from tests.cases import COLUMN, CONFIG, ROOT, SIZES, as_written, broken
 from tests.cases import FRAME as BENT
 from topheavy.forces import base_shear_slope
@@ -132,6 +132,14 @@ def test_findings_of_spectra(tables):
     assert "prevents_more_than_it_causes" in broken(found)
     alike = tables["areas"].assign(caused=0.01)
     assert "caused_by_the_size" in broken(spectra.findings(tables["spectra"], alike, **rest))
+
+
+@pytest.mark.parametrize(("share", "expected"), [(0.13, 1.192916), (0.01, 1.344949)])
+def test_minimum_narrower_than_the_resolution_is_sought_below_the_first(share, expected):
+    settings = CONFIG["spectra"] | {"near": SPECTRA["near"] | {"share": share}}
+    lines = [line("frame", 1.0, 14.0, "one-cosine", ratio) for ratio in (8.0, 1.5)]
+    table = solve([lines], settings)
+    assert table[table.frequency_ratio == 1.5].lower.min() == pytest.approx(expected, abs=1e-6)
 
 
 def several(mass_ratios, ratio):

@@ -54,11 +54,11 @@ def solve(spectra: Sequence[Sequence[Line]], settings: Mapping[str, Any]) -> pd.
     """
     amplitudes, again = settings["amplitudes"], settings["again"]
     ends = (amplitudes["lowest"], amplitudes["highest"])
-    finer = (settings["finer"]["below"], settings["finer"]["resolution"])
     lines = [one for spectrum in spectra for one in spectrum]
     found: list[list[FactorInterval]] = []
     for begin in range(0, len(lines), TOGETHER):
-        found += search(lines[begin : begin + TOGETHER], ends, amplitudes["resolution"], finer)
+        some = lines[begin : begin + TOGETHER]
+        found += search_finely(some, ends, amplitudes["resolution"], settings)
         print(f"{len(found)} of {len(lines)} lines", flush=True)
 
     def search_again(places: Sequence[int]) -> list[int]:
@@ -66,7 +66,8 @@ def solve(spectra: Sequence[Sequence[Line]], settings: Mapping[str, Any]) -> pd.
         different = []
         for begin in range(0, len(places), TOGETHER):
             some = places[begin : begin + TOGETHER]
-            by_place = search([lines[at] for at in some], ends, again["resolution"], finer)
+            lines_again = [lines[at] for at in some]
+            by_place = search_finely(lines_again, ends, again["resolution"], settings)
             for at, intervals in zip(some, by_place, strict=True):
                 if not same(intervals, found[at]):
                     different.append(at)
@@ -111,6 +112,43 @@ def search(
     return intervals_of_many(
         blocks, pulses, ends, resolution=resolution, most_impacts=1, finer=finer
     )
+
+
+def search_finely(
+    lines: Sequence[Line], ends: tuple[float, float], resolution: float, settings: Mapping[str, Any]
+) -> list[list[FactorInterval]]:
+    """Return the intervals of each line, also narrower ones close to uplift and below a minimum."""
+    below, finest, near = (
+        settings["finer"]["below"],
+        settings["finer"]["resolution"],
+        settings["near"],
+    )
+    found = search(lines, ends, resolution, (below, finest))
+
+    def add(
+        places: Sequence[int], scales: Sequence[float], more: list[list[FactorInterval]]
+    ) -> None:
+        """Put intervals before those of their lines that begin higher."""
+        for at, scale, intervals in zip(places, scales, more, strict=True):
+            found[at] = [
+                FactorInterval(
+                    (scale * one.lower[0], scale * one.lower[1]),
+                    (scale * one.upper[0], scale * one.upper[1]),
+                    one.number_of_impacts,
+                )
+                for one in intervals
+                if one.upper and scale * one.upper[1] < found[at][0].lower[0]
+            ] + found[at]
+
+    minima = {at: some[0].lower[1] for at, some in enumerate(found) if some}
+    places = [at for at, minimum in minima.items() if minimum >= below]
+    scaled = [lines[at]._replace(pulse=lines[at].pulse.scaled(minima[at])) for at in places]
+    more = search(scaled, (1.0 - near["share"], 1.0), near["resolution"])
+    add(places, [minima[at] for at in places], more)
+    places = [at for at in places if found[at][0].lower[1] < below]
+    more = search([lines[at] for at in places], (ends[0], below), finest)
+    add(places, [1.0] * len(places), more)
+    return found
 
 
 def rows_of(of: Line, intervals: Sequence[FactorInterval]) -> Iterator[dict[str, Any]]:
