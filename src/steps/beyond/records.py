@@ -83,7 +83,8 @@ def overturned(frame, record, factors, tightened):
     """Return 1 for factors that overturn, −1 for those that do not, and 0 where this is not known.
 
     It is not known if a relative change of NUDGE in the record, or a tighter tolerance, changes it.
-    Only factors at most BESIDE steps from a change of the outcome are computed again.
+    Only factors at most BESIDE steps from a change of the outcome are computed again: single ones
+    elsewhere may be as sensitive, and are counted.
     """
     found = overturned_by(frame, record, factors)
     changes = np.flatnonzero(found[1:] != found[:-1])
