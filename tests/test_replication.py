@@ -115,7 +115,7 @@ def test_claim_has_the_numbers_of_its_config_and_a_false_one_is_named_with_its_f
     row = judged(claim, {"run": {"good": truth(True)}})
     assert (row["verdict"], unexpected([row])) == ("confirmed", [])
     (line,) = unexpected([judged(claim, {"run": {"good": truth(False)}})])
-    assert "claims.yaml: verdict of stands is refuted, expected confirmed (computed: Fals" in line
+    assert "claims.yaml: verdict of stands is refuted, expected confirmed (computed: " in line
     with pytest.raises(SystemExit, match="names the finding 'good' of rule run, which has bad"):
         judged(claim, {"run": {"bad": truth(True)}})
     (claim,) = read(tmp_path, GOOD.replace("{scale} times", "in {a, {0.5} and {scale.real}"))
