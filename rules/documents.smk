@@ -41,14 +41,7 @@ for part in ["paper", "beyond"]:
             captions="figures/captions.yaml",
             style="figures/style.mplstyle",
         output:
-            [
-                report(
-                    path.replace(".py", ".svg"),
-                    caption="report.rst",
-                    category="Figures",
-                )
-                for path in scripts
-            ],
+            [path.replace(".py", ".svg") for path in scripts],
         log:
             f"results/logs/{part}_figures.log",
         benchmark:
@@ -214,9 +207,7 @@ rule site:
     output:
         site=directory("results/site"),
         numbers="results/numbers.md",
-        verdicts=report(
-            "results/verdicts.md", caption="report.rst", category="Verdicts"
-        ),
+        verdicts="results/verdicts.md",
     log:
         "results/logs/site.log",
     benchmark:
