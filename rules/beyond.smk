@@ -96,7 +96,7 @@ rule records:
         settings=PAPER["records"],
         solver=PAPER["solver"],
         structures=PAPER["structures"],
-        counts=["decided", "both", "only_lighter", "only_heavier"],  # of outcomes
+        counts=["only_lighter", "only_heavier"],  # of outcomes
     message:
         "Measured ground motions"
     script:

@@ -32,8 +32,7 @@ def compute(settings, solver, structures, components):
         for light, heavy in combinations(gammas, 2):
             one, other = np.array(outcomes[light]), np.array(outcomes[heavy])
             rows.append(
-                {"record": record.name, "lighter": light, "heavier": heavy, "compared": one.size}
-                | {"decided": (one * other != 0).sum(), "both": ((one == 1) & (other == 1)).sum()}
+                {"record": record.name, "lighter": light, "heavier": heavy}
                 | {"only_lighter": ((one == 1) & (other == -1)).sum()}
                 | {"only_heavier": ((one == -1) & (other == 1)).sum()}
             )
