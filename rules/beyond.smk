@@ -35,8 +35,12 @@ rule motions:
     input:
         shards=gather.motions("results/shards/motions_{scatteritem}.npz"),
     output:
-        probabilities="results/tables/motions.csv",
-        gains="results/tables/motions_gains.csv",
+        probabilities=report(
+            "results/tables/motions.csv", caption="report.rst", category="Tables"
+        ),
+        gains=report(
+            "results/tables/motions_gains.csv", caption="report.rst", category="Tables"
+        ),
         pairs="results/tables/motions_pairs.csv",
         fragility="results/tables/motions_fragility.csv",
         rotations="results/tables/motions_rotations.csv",
@@ -135,7 +139,9 @@ rule designers:
         "results/tables/uplift.csv",
         "results/tables/friction_by_mass.csv",
     output:
-        table="results/tables/designers.csv",
+        table=report(
+            "results/tables/designers.csv", caption="report.rst", category="Tables"
+        ),
         findings="results/findings/designers.json",
     log:
         "results/logs/designers.log",

@@ -41,7 +41,14 @@ for part in ["paper", "beyond"]:
             captions="figures/captions.yaml",
             style="figures/style.mplstyle",
         output:
-            [path.replace(".py", ".svg") for path in scripts],
+            [
+                report(
+                    path.replace(".py", ".svg"),
+                    caption="report.rst",
+                    category="Figures",
+                )
+                for path in scripts
+            ],
         log:
             f"results/logs/{part}_figures.log",
         benchmark:
@@ -207,7 +214,9 @@ rule site:
     output:
         site=directory("results/site"),
         numbers="results/numbers.md",
-        verdicts="results/verdicts.md",
+        verdicts=report(
+            "results/verdicts.md", caption="report.rst", category="Verdicts"
+        ),
     log:
         "results/logs/site.log",
     benchmark:

@@ -41,7 +41,9 @@ rule parameters:
     input:
         kernel="results/kernel.compiled",
     output:
-        mass_ratio="results/tables/mass_ratio.csv",
+        mass_ratio=report(
+            "results/tables/mass_ratio.csv", caption="report.rst", category="Tables"
+        ),
         restitution="results/tables/restitution.csv",
         moment_rotation="results/tables/moment_rotation.csv",
         four_structures="results/tables/four_structures.csv",
@@ -65,7 +67,11 @@ rule trilith:
     input:
         kernel="results/kernel.compiled",
     output:
-        trilith_numbers="results/tables/trilith_numbers.csv",
+        trilith_numbers=report(
+            "results/tables/trilith_numbers.csv",
+            caption="report.rst",
+            category="Tables",
+        ),
         trilith_thresholds="results/tables/trilith_thresholds.csv",
         trilith_starts="results/tables/trilith_starts.csv",
         trilith_histories="results/tables/trilith_histories.csv",
@@ -93,7 +99,9 @@ rule allen:
         kernel="results/kernel.compiled",
     output:
         allen_histories="results/tables/allen_histories.csv",
-        allen_errors="results/tables/allen_errors.csv",
+        allen_errors=report(
+            "results/tables/allen_errors.csv", caption="report.rst", category="Tables"
+        ),
         allen_maps="results/tables/allen_maps.csv",
         findings="results/findings/allen.json",
     log:
@@ -187,7 +195,9 @@ rule spectra:
     input:
         shards=gather.spectra("results/shards/spectra_{scatteritem}.csv"),
     output:
-        spectra="results/tables/spectra.csv",
+        spectra=report(
+            "results/tables/spectra.csv", caption="report.rst", category="Tables"
+        ),
         areas="results/tables/spectra_areas.csv",
         histories="results/tables/spectra_histories.csv",
         collapse="results/tables/spectra_collapse.csv",
@@ -212,7 +222,7 @@ rule vase:
     input:
         kernel="results/kernel.compiled",
     output:
-        vase="results/tables/vase.csv",
+        vase=report("results/tables/vase.csv", caption="report.rst", category="Tables"),
         motions="results/tables/vase_motions.csv",
         poses="results/tables/vase_poses.csv",
         findings="results/findings/vase.json",
