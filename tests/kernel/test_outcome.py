@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.cases import pulse_forcing
-from topheavy import Record, RockingBlock, judge, overturned_by, simulate
+from topheavy import Pulse, Record, RockingBlock, judge, overturned_by, simulate
 from topheavy.kernel import forcing
 from topheavy.kernel.forcing import (
     NO_RECORD,
@@ -93,6 +93,16 @@ def test_the_side_is_a_state_of_its_own():
     assert after.push == pytest.approx(-0.02 - there.uplift_level)
     assert after.rate == -0.5
     assert after_impact(there, before._replace(velocity=1e-18)).velocity == 0.0
+
+
+def test_pulse_of_several_cycles_is_the_record_of_its_samples():
+    for strength in (1.3, 2.5, 3.5, 9.0):
+        pulse = Pulse("one-cosine", strength * BLOCK.slenderness, 3.0, cycles=3)
+        time = np.linspace(0.0, pulse.duration, 30_001)
+        motions = pulse, Record(time[1], pulse.excitation(time))
+        end, sampled = (judge(BLOCK.linear(), motion) for motion in motions)
+        assert end[::2] == sampled[::2]  # overturned, number of impacts
+        np.testing.assert_allclose(end.peak_rotation, sampled.peak_rotation, rtol=0, atol=1e-5)
 
 
 def test_peaks_are_good_to_1e_9_alpha_at_the_default_tolerance():
