@@ -36,13 +36,10 @@ def test_public_name_has_an_example(name):
     assert ">>> " in inspect.getdoc(getattr(th, name))
 
 
-@pytest.mark.parametrize(
-    "task",
-    [
-        *(th.overturning_spectrum, th.fragility, th.capacity, th.contact_forces),
-        th.peak_rotations,
-    ],
-)
+TASKS = [th.overturning_spectrum, th.fragility, th.capacity, th.contact_forces, th.peak_rotations]
+
+
+@pytest.mark.parametrize("task", TASKS)
 def test_task_of_an_engineer_takes_at_most_ten_lines(task):
     lines = [line for line in inspect.getdoc(task).splitlines() if line.startswith((">>>", "..."))]
     assert len(lines) <= 10
