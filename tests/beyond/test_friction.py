@@ -63,3 +63,11 @@ def test_an_overturning_pulse_is_left_out_and_an_impact_counts():
     row = friction.required(frame, CAP, weak, SETTINGS)
     assert row["least_vertical"] <= impact.vertical.min() / impact.vertical[:2].sum()
     assert row["required"] >= float(np.max(impact.friction_demand))
+
+
+def test_error_of_required_friction_is_what_half_of_the_samples_change():
+    shaking = Pulse("one-sine", 3.0 * COLUMN.uplift_acceleration, 6.0 * COLUMN.frequency_parameter)
+    frame = RockingFrame(COLUMN, 1.0)
+    fine, coarse = (friction.required(frame, CAP, shaking, {"samples": n}) for n in (8, 4))
+    assert fine["error"] == pytest.approx(fine["required"] - coarse["required"], rel=1e-6)
+    assert fine["error"] > 1e-4
