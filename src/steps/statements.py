@@ -80,7 +80,7 @@ def three_bodies(frame, cap, pulse, duration, samples):
         "restitution_apart": np.abs(ratios - frame.restitution).max(initial=0.0),
         "force_apart": np.abs(bodies.forces / weight - closed)[flying].max(),
         "cap_balance_apart": np.abs(on_cap)[left].max(initial=0.0) / weight,
-        "cap_tilt": np.nanmax(np.abs(bodies.cap_angle)) / alpha,
+        "cap_tilt": np.nanmax(np.abs(bodies.coordinates[:, 8])) / alpha,
     }
     return {
         "mass_ratio": frame.mass_ratio,

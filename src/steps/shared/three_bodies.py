@@ -5,14 +5,12 @@ motion of the frame or its coefficient of restitution, which are results here.
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike
-from scipy.integrate import DOP853, DenseOutput
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from steps.shared.newton_euler import (
@@ -25,7 +23,6 @@ from steps.shared.newton_euler import (
     opening,
     uplift_accelerations,
 )
-from steps.shared.segments import Segment, segments_of
 from topheavy import checks
 from topheavy.bodies.response import EndState, sample_times
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
@@ -34,19 +31,20 @@ from topheavy.ground.pulses import Pulse
 TOLERANCE = 1e-12
 """Of the integration, relative to the size of a motion as large as α."""
 
+BELOW = 1e-12
+"""Over α: an impact is where a column has passed the upright by so much, more than by rounding."""
+
 REST_PEAK = 1e-6
 """Over α: a frame whose next bounce peaks below this may have come to rest."""
 
 LARGEST_GAP = 1e-6
 """Of R: bodies further than this from upright, when a column is, have lost their contacts."""
 
-_DEGREE = 7  # of DOP853's interpolating polynomial
-_NODES = chebyshev.chebpts1(_DEGREE + 1)
-_TO_SERIES = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))
+LOOKS = 4001
+"""Instants of a pulse at which a frame at rest is looked at: does the ground lift it?"""
 
 
-@dataclass(frozen=True, eq=False)
-class ThreeBodyResponse:
+class ThreeBodyResponse(NamedTuple):
     """A history of the three bodies.
 
     Attributes
@@ -58,14 +56,10 @@ class ThreeBodyResponse:
     forces : ndarray, shape (n, 4, 2)
         Contact forces on the upper body, to the right and upward, N for columns of 1 kg. NaN at
         rest, when the bodies stand on faces.
-    drift : ndarray, shape (n,)
-        Largest distance between two points in contact, m: what the integration has lost.
     impacts : ndarray, shape (m,)
         Times of all impacts, s.
     velocity_ratios : ndarray, shape (m, 2)
         Angular velocity behind over before an impact, of each column.
-    impulses : ndarray, shape (m, 4, 2)
-        N s, as the forces.
     outcome : {"no uplift", "rests", "rocking", "overturned"}
         Of this history: "overturned" is a column that lies flat, |θ| = π/2.
     """
@@ -74,51 +68,14 @@ class ThreeBodyResponse:
     coordinates: Vector
     velocity: Vector
     forces: Vector
-    drift: Vector
     impacts: Vector
     velocity_ratios: Vector
-    impulses: Vector
     outcome: EndState
 
     @property
     def rotation(self) -> Vector:
         """θ of each column, rad, shape (n, 2)."""
         return self.coordinates[:, COLUMNS]
-
-    @property
-    def cap_displacement(self) -> Vector:
-        """u and v of the cap beam's centre, m, shape (n, 2)."""
-        return self.coordinates[:, 6:8]
-
-    @property
-    def cap_angle(self) -> Vector:
-        """Rotation of the cap beam, rad, shape (n,)."""
-        return self.coordinates[:, 8]
-
-
-@dataclass(frozen=True)
-class _Arc:
-    """A span of the motion; `course` gives (q, q̇) and is None at rest."""
-
-    start: float
-    stop: float
-    sides: Sides
-    ground: Segment
-    course: DenseOutput | None
-
-
-@dataclass
-class _Motion:
-    """The current state of a motion, with its peak and its number of impacts so far."""
-
-    time: float
-    sides: Sides
-    state: Vector  # (q, q̇)
-    moving: bool
-    arcs: list[_Arc]
-    impacts: list[tuple[float, Vector, Vector]]  # time, ratios, impulses
-    launching: bool = False  # uplifted, and pushed on since without a break
-    fallen: bool = False
 
 
 def simulate_three_bodies(
@@ -170,28 +127,81 @@ def simulate_three_bodies(
     times = sample_times(samples)
     if isinstance(times, int):
         times = np.linspace(0.0, until, times)
-    segments = segments_of(pulse, until)
-    motion = _start(bodies, rotation, velocity)
+    sides, state = _start(bodies, rotation, velocity)
     lifts = uplift_accelerations(bodies)
     level = min(abs(lift) for lift in lifts.values())
-    for number, segment in enumerate(segments):
-        while motion.time < segment.stop and not motion.fallen:
-            if not motion.moving:
-                uplift = segment.uplift(motion.time, level)
-                rest_ends = segment.stop if uplift is None else uplift
-                motion.arcs.append(_Arc(motion.time, rest_ends, motion.sides, segment, None))
-                motion.time = rest_ends
-                if uplift is None:
-                    break
-                motion.sides = _lifting(lifts, segment.acceleration(uplift))
-                motion.moving = motion.launching = True
-            if _fly(bodies, segment, motion, level, tolerance):
-                _collide(bodies, segments[number:], motion, level)
-    return _sampled(bodies, motion, times)
+    size, alpha = frame.column.size, frame.slenderness
+    length = np.array([size, size, 1.0] * 3)
+    scale = tolerance * alpha * np.append(length, math.sqrt(STANDARD_GRAVITY / size) * length)
+    states, forces = np.full((times.size, 18), math.nan), np.full((times.size, 4, 2), math.nan)
+    hits: list[tuple[float, Vector]] = []
+    moving, outcome, time = bool(state.any()), "no uplift", 0.0
+    end = min(until, pulse.duration) if pulse else 0.0
+    while time < until and outcome != "overturned":
+        stop = end if time < end else until
+        ground = pulse.excitation if pulse and time < end else np.zeros_like
+        if not moving:
+            lifted = _uplift(ground, time, stop, level)
+            states[(time <= times) & (times <= lifted)] = 0.0
+            time, moving = lifted, lifted < stop
+            if moving:
+                push = ground(math.nextafter(time, stop))
+                sides = next(corners for corners, lift in lifts.items() if lift * push > 0.0)
+            continue
+
+        def newton_euler(
+            t: float, y: Vector, sides: Sides = sides, ground: Callable = ground
+        ) -> Vector:
+            second, _ = accelerations(bodies, sides, y[:9], y[9:], float(ground(t)))
+            return np.append(y[9:], second)
+
+        def upright(t: float, y: Vector, sides: Sides = sides) -> float:
+            return float((y[COLUMNS] * sides).min()) + BELOW * alpha
+
+        def flat(t: float, y: Vector) -> float:
+            return math.pi / 2.0 - float(np.abs(y[COLUMNS]).max())
+
+        upright.terminal = flat.terminal = True  # type: ignore[attr-defined]
+        flight = solve_ivp(
+            newton_euler,
+            (time, stop),
+            state,
+            "DOP853",
+            dense_output=True,
+            events=[upright, flat],
+            rtol=tolerance,
+            atol=scale,
+        )
+        if not flight.success:
+            raise ArithmeticError(f"{bodies}: no step is possible at {flight.t[-1]:.6g} s")
+        for k in np.flatnonzero((time <= times) & (times <= flight.t[-1])):
+            states[k] = flight.sol(times[k])
+            _, forces[k] = accelerations(bodies, sides, *np.split(states[k], 2), ground(times[k]))
+        time, state, outcome = flight.t[-1], flight.y[:, -1], "rocking"
+        if flight.t_events[1].size:
+            outcome = "overturned"
+        elif flight.t_events[0].size:
+            sides = (-sides[0], -sides[1])
+            state, ratios = _collided(bodies, sides, state, time)
+            hits.append((time, ratios))
+            lifting = state[9:][COLUMNS] * sides
+            rests = _rests(bodies, sides, ground, time, level, lifting.max(), ratios.max())
+            moving = bool((lifting > 0.0).all()) and not rests
+            if not moving:
+                state, outcome = np.zeros(18), "rests"
+    return ThreeBodyResponse(
+        times,
+        states[:, :9],
+        states[:, 9:],
+        forces,
+        np.array([at for at, _ in hits]),
+        np.reshape([ratios for _, ratios in hits], (-1, 2)),
+        outcome,
+    )
 
 
-def _start(bodies: ThreeBodies, rotation: float, velocity: float) -> _Motion:
-    """Return the motion at t = 0: equal columns at θ and θ̇, and all contacts closed."""
+def _start(bodies: ThreeBodies, rotation: float, velocity: float) -> tuple[Sides, Vector]:
+    """Return corners and (q, q̇) at t = 0: equal columns at θ and θ̇, and all contacts closed."""
     theta = checks.finite("rotation", rotation)
     rate = checks.finite("velocity", velocity)
     if abs(theta) >= math.pi / 2:
@@ -204,171 +214,51 @@ def _start(bodies: ThreeBodies, rotation: float, velocity: float) -> _Motion:
         coordinates[3 * body : 3 * body + 2] -= bodies.gaps(sides, coordinates)[body]
     jacobian = bodies.matrix(bodies.turned_arms(sides, coordinates))[9:, :9]
     moving_on = np.vstack([jacobian, np.eye(9)[2]])
-    velocities = np.linalg.solve(moving_on, rate * np.eye(9)[8])
-    state = np.concatenate([coordinates, velocities])
-    return _Motion(0.0, sides, state, bool(theta or rate), [], [])
+    return sides, np.append(coordinates, np.linalg.solve(moving_on, rate * np.eye(9)[8]))
 
 
-def _lifting(lifts: dict[Sides, float], ground: float) -> Sides:
-    """Return the corners on which the frame turns when the ground lifts it by this push (g)."""
-    return next(sides for sides, lift in lifts.items() if lift * ground > 0.0)
+def _uplift(ground: Callable, time: float, stop: float, level: float) -> float:
+    """Return the first instant at which |ü_g| exceeds a level (g), or the stop."""
+    looks = np.linspace(time, stop, LOOKS)
+    above = np.flatnonzero(np.abs(ground(looks)) > level)
+    if not above.size or above[0] == 0:
+        return time if above.size else stop
+    before, after = looks[above[0] - 1], looks[above[0]]
+    return float(brentq(lambda t: abs(float(ground(t))) - level, before, after, xtol=1e-15))
 
 
-def _fly(
-    bodies: ThreeBodies, segment: Segment, motion: _Motion, level: float, tolerance: float
-) -> bool:
-    """Move to the end of the segment, or of the push that lifted it; return whether it collides."""
-    stop, possible = segment.stop, not motion.launching
-    if motion.launching:
-        # While pushed by more than the uplift acceleration it only rises: no impact is looked for
-        # where rounding could feign one.
-        push_ends = segment.falls_below(motion.time, motion.sides[0], level)
-        motion.launching = push_ends >= stop
-        stop = min(stop, max(push_ends, math.nextafter(motion.time, math.inf)))
-    column = bodies.frame.column
-    length, alpha = np.array([column.size, column.size, 1.0] * 3), column.slenderness
-    rate = math.sqrt(STANDARD_GRAVITY / column.size)
-    sides = motion.sides
-
-    def newton_euler(t: float, y: Vector) -> Vector:
-        second, _ = accelerations(bodies, sides, y[:9], y[9:], segment.acceleration(t))
-        return np.concatenate([y[9:], second])
-
-    solver = DOP853(
-        newton_euler,
-        motion.time,
-        motion.state,
-        stop,
-        rtol=tolerance,
-        atol=tolerance * alpha * np.concatenate([length, rate * length]),
-    )
-    while solver.status == "running":
-        message = solver.step()
-        if solver.status == "failed":
-            raise ArithmeticError(f"{bodies}: no step is possible at {solver.t:.6g} s: {message}")
-        step = solver.dense_output()
-        event, motion.time = _first_event(step, sides, possible)
-        motion.arcs.append(_Arc(step.t_old, motion.time, sides, segment, step))
-        motion.state = step(motion.time)
-        if event is not None:
-            motion.fallen = event == "fall"
-            return event == "impact"
-    return False
-
-
-def _first_event(
-    step: DenseOutput, sides: Sides, possible: bool
-) -> tuple[Literal["impact", "fall"] | None, float]:
-    """Return what happens first in a step and when, or None and the end of the step.
-
-    In Chebyshev form a polynomial lies within c₀ ± Σ|cₖ|. Where that does not exclude events, the
-    step is cut at the turning points of the rotation, between which a sign change is certain.
-    """
-    middle, half = (step.t_old + step.t) / 2.0, (step.t - step.t_old) / 2.0
-    events: list[tuple[float, Literal["impact", "fall"]]] = []
-    at_nodes = step(middle + half * _NODES)
-    for angle, side in zip(COLUMNS, sides, strict=True):
-        series = _TO_SERIES @ (side * at_nodes[angle])
-        reach = np.abs(series[1:]).sum()
-        if series[0] - reach > 0.0 and series[0] + reach < math.pi / 2:
-            continue
-        turns = chebyshev.chebroots(chebyshev.chebder(series))
-        real = np.sort(turns.real[(np.abs(turns.imag) < 1e-9) & (np.abs(turns.real) < 1.0)])
-
-        def above(t: float, level: float, angle: int = angle, side: int = side) -> float:
-            return side * float(step(t)[angle]) - level
-
-        before = step.t_old
-        for time in (*(middle + half * real), step.t):
-            if possible and above(before, 0.0) >= 0.0 > above(time, 0.0):
-                root = brentq(above, before, time, args=(0.0,), xtol=1e-300, rtol=1e-15)
-                events.append((float(root), "impact"))
-                break
-            if above(before, math.pi / 2) <= 0.0 < above(time, math.pi / 2):
-                events.append((float(brentq(above, before, time, args=(math.pi / 2,))), "fall"))
-                break
-            before = time
-    if not events:
-        return None, step.t
-    time, event = min(events)
-    return event, time
-
-
-def _collide(
-    bodies: ThreeBodies, segments: Sequence[Segment], motion: _Motion, level: float
-) -> None:
-    """Apply the impact of the upright frame: it changes to its other corners."""
-    largest = np.abs(motion.state[:9] * ([1.0, 1.0, bodies.frame.column.size] * 3)).max()
+def _collided(
+    bodies: ThreeBodies, sides: Sides, state: Vector, time: float
+) -> tuple[Vector, Vector]:
+    """Return (q, q̇) behind the impact of the upright frame, and the ratios of its velocities."""
+    largest = np.abs(state[:9] * ([1.0, 1.0, bodies.frame.column.size] * 3)).max()
     if largest > LARGEST_GAP * bodies.frame.column.size:
         raise ArithmeticError(
-            f"{bodies}: at {motion.time:.6g} s a column is upright and another body is "
+            f"{bodies}: at {time:.6g} s a column is upright and another body is "
             f"{largest:.3g} m off; expected less than {LARGEST_GAP:g} R"
         )
-    before = motion.state[9:]
-    motion.sides = (-motion.sides[0], -motion.sides[1])
-    after, impulses = impact(bodies, motion.sides, before)
-    ratios = after[COLUMNS] / before[COLUMNS]
-    motion.impacts.append((motion.time, ratios, impulses))
-    lifting = after[COLUMNS] * np.array(motion.sides)
-    motion.moving = bool(np.all(lifting > 0.0)) and not _comes_to_rest(
-        bodies, segments, motion, level, float(lifting.max()), float(ratios.max())
-    )
-    motion.state = np.concatenate([np.zeros(9), after if motion.moving else np.zeros(9)])
+    after, _ = impact(bodies, sides, state[9:])
+    return np.append(np.zeros(9), after), after[COLUMNS] / state[9:][COLUMNS]
 
 
-def _comes_to_rest(
+def _rests(
     bodies: ThreeBodies,
-    segments: Sequence[Segment],
-    motion: _Motion,
+    sides: Sides,
+    ground: Callable,
+    time: float,
     level: float,
     rate: float,
     ratio: float,
 ) -> bool:
-    """Return whether the bounces that start here are negligible and provably die out.
+    """Return whether the bounces that start here are negligible and die out.
 
-    At the restoring acceleration d a bounce lasts 2 θ̇/d, and the train of
-    them 2 θ̇/d(1 − ratio); it is over when d keeps above a half of its value for twice that long.
+    At the restoring acceleration d a bounce lasts 2 θ̇/d, and the train of them
+    2 θ̇/d(1 − ratio); it is over when d keeps above a half of its value for twice that long.
     """
-    now = abs(segments[0].acceleration(motion.time))
-    restoring = -float(opening(bodies, motion.sides, -motion.sides[0] * now).max())
-    if (
-        restoring <= 0.0
-        or ratio >= 1.0
-        or rate**2 > 2.0 * restoring * REST_PEAK * bodies.frame.slenderness
-    ):
+    now = abs(float(ground(time)))
+    restoring = -float(opening(bodies, sides, -sides[0] * now).max())
+    peak = REST_PEAK * bodies.frame.slenderness
+    if restoring <= 0.0 or ratio >= 1.0 or rate**2 > 2.0 * restoring * peak:
         return False
-    train_ends = motion.time + 4.0 * rate / (restoring * (1.0 - ratio))
-    largest = max(segment.largest(motion.time, train_ends) for segment in segments)
-    return level - largest > (level - now) / 2.0
-
-
-def _sampled(bodies: ThreeBodies, motion: _Motion, times: Vector) -> ThreeBodyResponse:
-    """Return the history at the times: that of the later arc where two meet."""
-    states = np.full((times.size, 18), math.nan)
-    forces, drift = np.full((times.size, 4, 2), math.nan), np.full(times.size, math.nan)
-    for arc in motion.arcs:
-        first, last = np.searchsorted(times, arc.start), np.searchsorted(times, arc.stop, "right")
-        for k in range(int(first), int(last)):
-            if arc.course is None:
-                states[k], forces[k], drift[k] = 0.0, math.nan, 0.0
-                continue
-            t = float(times[k])
-            states[k] = arc.course(t)
-            q, rates = states[k, :9], states[k, 9:]
-            _, forces[k] = accelerations(bodies, arc.sides, q, rates, arc.ground.acceleration(t))
-            drift[k] = np.hypot(*bodies.gaps(arc.sides, q).T).max()
-    moved = any(arc.course is not None for arc in motion.arcs)
-    outcome: EndState = "rests" if moved else "no uplift"
-    if motion.fallen or motion.moving:
-        outcome = "overturned" if motion.fallen else "rocking"
-    return ThreeBodyResponse(
-        time=times,
-        coordinates=states[:, :9],
-        velocity=states[:, 9:],
-        forces=forces,
-        drift=drift,
-        impacts=np.array([time for time, _, _ in motion.impacts]),
-        velocity_ratios=np.array([ratios for _, ratios, _ in motion.impacts]).reshape(-1, 2),
-        impulses=np.array([impulses for _, _, impulses in motion.impacts]).reshape(-1, 4, 2),
-        outcome=outcome,
-    )
+    train = np.linspace(0.0, 4.0 * rate / (restoring * (1.0 - ratio)), 20)
+    return bool(level - np.abs(ground(time + train)).max() > (level - now) / 2.0)
