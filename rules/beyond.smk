@@ -16,8 +16,6 @@ rule motions_shard:
         outcomes="results/shards/motions_{scatteritem}.npz",
     log:
         "results/logs/motions_{scatteritem}.log",
-    benchmark:
-        "results/benchmarks/motions_{scatteritem}.tsv"
     priority: 1
     params:
         code=code("src/steps/beyond/motions_shard.py"),
@@ -47,8 +45,6 @@ rule motions:
         findings="results/findings/motions.json",
     log:
         "results/logs/motions.log",
-    benchmark:
-        "results/benchmarks/motions.tsv"
     priority: 1
     params:
         code=code("src/steps/beyond/motions.py"),
@@ -70,8 +66,6 @@ rule break_even:
         findings="results/findings/break_even.json",
     log:
         "results/logs/break_even.log",
-    benchmark:
-        "results/benchmarks/break_even.tsv"
     params:
         code=code("src/steps/beyond/break_even.py"),
         settings=PAPER["break_even"],
@@ -93,8 +87,6 @@ rule records:
         findings="results/findings/records.json",
     log:
         "results/logs/records.log",
-    benchmark:
-        "results/benchmarks/records.tsv"
     params:
         code=code("src/steps/beyond/records.py"),
         settings=PAPER["records"],
@@ -119,8 +111,6 @@ rule friction:
         findings="results/findings/friction.json",
     log:
         "results/logs/friction.log",
-    benchmark:
-        "results/benchmarks/friction.tsv"
     params:
         code=code("src/steps/beyond/friction.py"),
         settings=PAPER["friction"],
@@ -145,8 +135,6 @@ rule designers:
         findings="results/findings/designers.json",
     log:
         "results/logs/designers.log",
-    benchmark:
-        "results/benchmarks/designers.tsv"
     params:
         code=code("src/steps/beyond/designers.py"),
         settings=PAPER["designers"],
@@ -168,8 +156,6 @@ rule engine:
         findings="results/findings/engine.json",
     log:
         "results/logs/engine.log",
-    benchmark:
-        "results/benchmarks/engine.tsv"
     priority: 1
     params:
         code=code("src/steps/beyond/engine.py"),
@@ -187,8 +173,6 @@ rule gaps:
         findings="results/findings/gaps.json",
     log:
         "results/logs/gaps.log",
-    benchmark:
-        "results/benchmarks/gaps.tsv"
     priority: 1
     params:
         code=code("src/steps/beyond/gaps.py"),
@@ -209,8 +193,6 @@ rule test_plan:
         findings="results/findings/test_plan.json",
     log:
         "results/logs/test_plan.log",
-    benchmark:
-        "results/benchmarks/test_plan.tsv"
     params:
         code=code("src/steps/beyond/test_plan.py"),
         settings=PAPER["test_plan"],

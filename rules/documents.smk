@@ -51,8 +51,6 @@ for part in ["paper", "beyond"]:
             ],
         log:
             f"results/logs/{part}_figures.log",
-        benchmark:
-            f"results/benchmarks/{part}_figures.tsv"
         params:
             code=code("src/documents/draw.py", *scripts, rule=f"{part}_figures"),
             config={
@@ -87,8 +85,6 @@ for path in sorted(glob("notebooks/*.ipynb")):
             page=f"results/notebooks/{name}.html",
         log:
             f"results/logs/notebook_{name}.log",
-        benchmark:
-            f"results/benchmarks/notebook_{name}.tsv"
         params:
             code=code("src/documents/notebook.py", path, rule=f"notebook_{name}"),
         message:
@@ -106,8 +102,6 @@ rule functions:
         page="results/functions.html",
     log:
         "results/logs/functions.log",
-    benchmark:
-        "results/benchmarks/functions.tsv"
     params:
         code=code(
             "src/documents/functions.py",
@@ -128,8 +122,6 @@ rule claims:
         "results/claims.json",
     log:
         "results/logs/claims.log",
-    benchmark:
-        "results/benchmarks/claims.tsv"
     priority: 4
     params:
         code=code("src/documents/judge.py", rule="claims"),
@@ -150,8 +142,6 @@ rule comparison:
         settings="results/settings.json",
     log:
         "results/logs/comparison.log",
-    benchmark:
-        "results/benchmarks/comparison.tsv"
     params:
         code=code("src/documents/compare.py", rule="comparison"),
         rules=RULES,
@@ -179,8 +169,6 @@ for document in ["report", "supplement"]:
             f"paper/{document}.pdf",
         log:
             f"results/logs/{document}.log",
-        benchmark:
-            f"results/benchmarks/{document}.tsv"
         params:
             code=code("src/documents/typeset.py", rule=document),
             config=PAPER,
@@ -219,8 +207,6 @@ rule site:
         ),
     log:
         "results/logs/site.log",
-    benchmark:
-        "results/benchmarks/site.tsv"
     params:
         code=code("src/documents/site.py"),
         config=PAPER,
@@ -239,8 +225,6 @@ rule expected:
         "results/summary.txt",
     log:
         "results/logs/expected.log",
-    benchmark:
-        "results/benchmarks/expected.tsv"
     params:
         code=code("src/documents/expect.py", rule="expected"),
     message:

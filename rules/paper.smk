@@ -8,8 +8,6 @@ rule kernel:
         touch("results/kernel.compiled"),
     log:
         "results/logs/kernel.log",
-    benchmark:
-        "results/benchmarks/kernel.tsv"
     priority: 4
     params:
         code=code("src/steps/kernel.py"),
@@ -26,8 +24,6 @@ rule equations:
         findings="results/findings/equations.json",
     log:
         "results/logs/equations.log",
-    benchmark:
-        "results/benchmarks/equations.tsv"
     priority: 3
     params:
         code=code("src/steps/equations.py"),
@@ -50,8 +46,6 @@ rule parameters:
         findings="results/findings/parameters.json",
     log:
         "results/logs/parameters.log",
-    benchmark:
-        "results/benchmarks/parameters.tsv"
     priority: 3
     params:
         code=code("src/steps/parameters.py"),
@@ -79,8 +73,6 @@ rule trilith:
         findings="results/findings/trilith.json",
     log:
         "results/logs/trilith.log",
-    benchmark:
-        "results/benchmarks/trilith.tsv"
     priority: 3
     params:
         code=code("src/steps/trilith.py"),
@@ -106,8 +98,6 @@ rule allen:
         findings="results/findings/allen.json",
     log:
         "results/logs/allen.log",
-    benchmark:
-        "results/benchmarks/allen.tsv"
     priority: 3
     params:
         code=code("src/steps/allen.py"),
@@ -130,8 +120,6 @@ rule statements:
         findings="results/findings/statements.json",
     log:
         "results/logs/statements.log",
-    benchmark:
-        "results/benchmarks/statements.tsv"
     params:
         code=code("src/steps/statements.py"),
         settings=PAPER["statements"],
@@ -152,8 +140,6 @@ rule verification:
         findings="results/findings/verification.json",
     log:
         "results/logs/verification.log",
-    benchmark:
-        "results/benchmarks/verification.tsv"
     params:
         code=code("src/steps/verification.py"),
         settings=PAPER["verification"],
@@ -178,8 +164,6 @@ rule spectra_shard:
         table="results/shards/spectra_{scatteritem}.csv",
     log:
         "results/logs/spectra_{scatteritem}.log",
-    benchmark:
-        "results/benchmarks/spectra_{scatteritem}.tsv"
     priority: 2
     params:
         code=code("src/steps/spectra_shard.py"),
@@ -205,8 +189,6 @@ rule spectra:
         findings="results/findings/spectra.json",
     log:
         "results/logs/spectra.log",
-    benchmark:
-        "results/benchmarks/spectra.tsv"
     priority: 2
     params:
         code=code("src/steps/spectra.py"),
@@ -228,8 +210,6 @@ rule vase:
         findings="results/findings/vase.json",
     log:
         "results/logs/vase.log",
-    benchmark:
-        "results/benchmarks/vase.tsv"
     priority: 2
     params:
         code=code("src/steps/vase.py"),
@@ -251,8 +231,6 @@ rule proven:
         findings="results/findings/proven.json",
     log:
         "results/logs/proven.log",
-    benchmark:
-        "results/benchmarks/proven.tsv"
     priority: 2
     params:
         code=code("src/steps/proven.py"),
@@ -272,8 +250,6 @@ rule uplift:
         findings="results/findings/uplift.json",
     log:
         "results/logs/uplift.log",
-    benchmark:
-        "results/benchmarks/uplift.tsv"
     params:
         code=code("src/steps/uplift.py"),
         settings=PAPER["uplift"],
@@ -292,8 +268,6 @@ rule animation:
         gif="results/animation.gif",
     log:
         "results/logs/animation.log",
-    benchmark:
-        "results/benchmarks/animation.tsv"
     params:
         code=code("src/documents/animation.py", "figures/palette.py"),
         settings=PAPER["animation"],
@@ -313,8 +287,6 @@ rule explorer:
         page="results/explorer.html",
     log:
         "results/logs/explorer.log",
-    benchmark:
-        "results/benchmarks/explorer.tsv"
     params:
         code=code("src/documents/explorer.py"),
     message:
