@@ -107,6 +107,16 @@ def test_a_result_leads_to_the_line_that_names_it():
         assert named, f"{name}: {script}, line {line}: {content}"
 
 
+def test_an_input_leads_to_the_line_of_its_section_that_sets_it():
+    text = (SITE / "numbers.html").read_text("utf-8")
+    lines = (ROOT / "config" / "config.yaml").read_text("utf-8").splitlines()
+    inputs = re.findall(r'id="config:([\w.]+)"[^\n]*?config\.yaml\.html#L(\d+)"', text)
+    assert len(inputs) > 80
+    for name, line in inputs:
+        above = (row for row in reversed(lines[: int(line)]) if re.match(r"\w", row))
+        assert next(above).startswith(f"{name.partition('.')[0]}:"), f"{name}: line {line}"
+
+
 @pytest.mark.parametrize("name", ["numbers.md", "verdicts.md"])
 def test_links_of_a_list_of_docs_lead_to_files_and_anchors(name):
     text = (SITE.parent / name).read_text("utf-8")

@@ -12,6 +12,8 @@ from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import yaml
+
 from replication.numbers import Quote
 from replication.verdicts import counted, decimals
 
@@ -238,15 +240,21 @@ def _cells(run: Run, to: Docs) -> Iterator[str]:
 def _inputs(run: Run, to: Docs) -> Iterator[str]:
     """Return each input that the documents quote, with its comment in the config."""
     path = "config/config.yaml"
-    lines = Path(path).read_text("utf-8").splitlines()
+    text = Path(path).read_text("utf-8")
+    lines, root = text.splitlines(), yaml.compose(text)
     yield "## Inputs\n"
     sources = {source for quote in run.quotes for source in quote.source.split(" and ")}
     for source in sorted(source for source in sources if source.startswith("config:")):
-        content, at = run.config, -1
+        content: Any = run.config
+        node, at = root, 0
         for key in source[7:].split("."):
-            content = content[int(key) if isinstance(content, list | tuple) else key]
-            named = re.compile(rf"(^|[\s{{]){key}:")
-            at = next((n for n in range(at + 1, len(lines)) if named.search(lines[n])), at)
+            if isinstance(node, yaml.MappingNode):
+                content = content[key]
+                name, node = next(pair for pair in node.value if pair[0].value == key)
+                at = name.start_mark.line
+            else:
+                content, node = content[int(key)], node.value[int(key)]
+                at = node.start_mark.line
         comment = lines[at].partition(" # ")[2]
         about = f". {comment}" if comment else ""
         place = f". {to.file(path, at + 1)}"
