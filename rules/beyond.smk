@@ -18,7 +18,7 @@ rule motions_shard:
         "results/logs/motions_{scatteritem}.log",
     priority: 1
     params:
-        code=code("src/steps/beyond/motions_shard.py"),
+        code=code("src/steps/shared/sweep.py", rule="motions_shard"),
         shard="{scatteritem}",
         settings=PAPER["motions"],
         break_even=PAPER["break_even"],
@@ -26,7 +26,7 @@ rule motions_shard:
     message:
         "Synthetic ground motions, part {wildcards.scatteritem}"
     script:
-        "../src/steps/beyond/motions_shard.py"
+        "../src/steps/shared/sweep.py"
 
 
 rule motions:

@@ -166,13 +166,13 @@ rule spectra_shard:
         "results/logs/spectra_{scatteritem}.log",
     priority: 2
     params:
-        code=code("src/steps/spectra_shard.py"),
+        code=code("src/steps/shared/spectrum.py", rule="spectra_shard"),
         settings=PAPER["spectra"],
         shard="{scatteritem}",
     message:
         "Overturning spectra, part {wildcards.scatteritem}"
     script:
-        "../src/steps/spectra_shard.py"
+        "../src/steps/shared/spectrum.py"
 
 
 rule spectra:

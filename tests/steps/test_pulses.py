@@ -11,8 +11,8 @@ from PIL import Image
 import topheavy as th
 from documents import animation
 from replication.step import findings_text
-from steps import proven, spectra, spectra_shard, uplift, vase
-from steps.shared import cycles
+from steps import proven, spectra, uplift, vase
+from steps.shared import cycles, spectrum
 from steps.shared.histories import history
 from steps.shared.spectrum import FRAME, KEYS, line, solve
 from tests.cases import COLUMN, CONFIG, ROOT, SIZES, as_written, broken
@@ -61,7 +61,7 @@ def unmet(found):
 
 @pytest.fixture(scope="module")
 def shards():
-    return [spectra_shard.compute(SPECTRA, f"{number}-of-2") for number in (1, 2)]
+    return [spectrum.compute(SPECTRA, f"{number}-of-2") for number in (1, 2)]
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +70,7 @@ def tables(shards):
 
 
 def test_shards_together_are_the_whole(shards):
-    whole = spectra_shard.compute(SPECTRA, "1-of-1")
+    whole = spectrum.compute(SPECTRA, "1-of-1")
     together = pd.concat(shards).sort_values([*KEYS, "lower"], ignore_index=True)
     pd.testing.assert_frame_equal(together, whole.sort_values([*KEYS, "lower"], ignore_index=True))
 

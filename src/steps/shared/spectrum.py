@@ -1,12 +1,16 @@
-"""Lines of overturning spectra: all amplitudes at a frequency that overturn a block."""
+"""Lines of overturning spectra: all amplitudes at a frequency that overturn a block.
+
+As a script it is the rule of a shard of them.
+"""
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import accumulate
+from itertools import accumulate, product
 from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 
+from replication.step import grid, run
 from steps.shared.cases import column_of, pulse_on
 from topheavy import FactorInterval, Pulse, RockingBlock, RockingFrame
 from topheavy.outcomes.search import intervals_of_many
@@ -160,3 +164,23 @@ def rows_of(of: Line, intervals: Sequence[FactorInterval]) -> Iterator[dict[str,
             "upper": upper,
             "mode": MODES[one.number_of_impacts],
         }
+
+
+def compute(settings: dict, shard: str) -> pd.DataFrame:
+    """Return the spectra of frames, and of columns with the p̂ or the √r of the heaviest."""
+    structures = [(FRAME, gamma) for gamma in settings["mass_ratios"]]
+    structures += [(change, max(settings["mass_ratios"])) for change in CHANGES[1:]]
+    ratios = [*map(float, grid(settings["frequency_ratios"]))]
+    labels = [*product(structures, settings["slendernesses"], settings["shapes"])]
+    number, of = map(int, shard.split("-of-"))
+    return solve(
+        [
+            [line(*structure, *rest, ratio) for ratio in ratios]
+            for structure, *rest in labels[number - 1 :: of]
+        ],
+        settings,
+    )
+
+
+if __name__ == "__main__":
+    run(snakemake, compute)

@@ -1,12 +1,13 @@
 """Models of ground motion, the structures that are put under their motions, and what overturns.
 
-`sweep` computes the outcomes of a shard, every n-th motion of each model, and `outcomes` reads
+As a script it computes the outcomes of a shard, every n-th motion of each model; `outcomes` reads
 those of all shards. The two sets of synthetic motions also answer the question of rule break_even.
 """
 
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from io import BytesIO
 from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from replication.step import geometric
+from replication.step import geometric, run
 from steps.shared import filtered_noise, synthetic
 from topheavy import (
     STANDARD_GRAVITY,
@@ -166,9 +167,9 @@ def rotations(question: Question, record: Record, _: Record | None) -> NDArray[n
     return np.nan_to_num(peaks / question.blocks[0].slenderness, nan=np.inf)
 
 
-def sweep(
+def compute(
     settings: Settings, break_even: Settings, structures: Mapping[str, Settings], shard: str
-) -> dict[str, Any]:
+) -> dict[str, bytes]:
     """Return the outcomes of a shard, "2-of-8", and the peak velocities (m/s) of its motions."""
     number, of = map(int, shard.split("-of-"))
     columns = {name: Column(**structures[name]) for name in settings["structures"]}
@@ -200,7 +201,9 @@ def sweep(
                     rows[name].append(answer(question, record, up))
         arrays |= {name: np.array(each) for name, each in rows.items()}
         print(f"{len(peaks)} motions, {model}", flush=True)
-    return arrays
+    content = BytesIO()
+    np.savez_compressed(content, **arrays)
+    return {"outcomes": content.getvalue()}
 
 
 def outcomes(shards: Sequence[str], name: str) -> NDArray[Any]:
@@ -212,3 +215,7 @@ def outcomes(shards: Sequence[str], name: str) -> NDArray[Any]:
     for number, part in parts.items():
         whole[number - 1 :: len(parts)] = part
     return whole
+
+
+if __name__ == "__main__":
+    run(snakemake, compute)
