@@ -61,6 +61,8 @@ def number(name: str, value: Any) -> float:
 
     A text, a truth value and an array are refused, although Python converts some of them.
     """
+    if type(value) is float:
+        return value
     if np.ma.is_masked(value):
         raise ValueError(f"{name} is masked; expected a number: fill the gap before")
     if np.ndim(value) == 0 and not isinstance(value, (str, bytes, bool, np.bool_)):
@@ -96,9 +98,10 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 def _refuse_masked(name: str, values: ArrayLike) -> None:
     if masked := _masked(values):
+        elements = "element" if masked == 1 else "elements"
         raise ValueError(
-            f"{name} has {masked} masked elements; expected numbers: fill the gaps before, or "
-            "leave these elements out"
+            f"{name} has {masked} masked {elements}; expected numbers: fill the gaps before, or "
+            "leave them out"
         )
 
 

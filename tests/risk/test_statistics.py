@@ -12,7 +12,7 @@ from topheavy.risk import curve as module
 from topheavy.risk import fragility, resampling
 from topheavy.risk.curve import curve, dispersions, fit, medians, rises_past
 from topheavy.risk.fragility import exact_interval, sign_test
-from topheavy.risk.resampling import Ensemble, interval, means_within
+from topheavy.risk.resampling import Ensemble, interval
 
 LEVELS = np.geomspace(0.5, 2.0, 9)
 WIDE = np.geomspace(0.1, 4.0, 12)
@@ -136,19 +136,19 @@ def test_means_by_blocks_scatter_as_those_of_all_weights(monkeypatch):
     """Motions of the first blocks fall more often; a resample draws 400, of whichever blocks."""
     monkeypatch.setattr(resampling, "MOTIONS_PER_BLOCK", 70)
     fell = np.arange(400)[:, None] < [40, 200]
-    means = means_within(fell, [None] * 400, 4000, 1)
+    means = Ensemble(fell, None, 4000, 1, 0.95).means()
     assert means[0] == pytest.approx([0.1, 0.5], rel=1e-12)
     assert means[1:].mean(axis=0) == pytest.approx([0.1, 0.5], abs=2e-3)
     assert means[1:].std(axis=0) == pytest.approx(np.sqrt([0.09 / 400, 0.25 / 400]), rel=0.05)
-    everything = means_within(np.ones(400), [None] * 400, 20, 1)
+    everything = Ensemble(np.ones(400), None, 20, 1, 0.95).means()
     assert everything == pytest.approx(np.ones(21), rel=1e-12)
 
 
 def test_equal_counts_are_equal():
     """Sums of weights depend on their order, and a difference of nothing would have a sign."""
     fell = np.random.default_rng(2).permuted(np.tile([[1], [0]], (49, 6)), axis=0)
-    assert not np.diff(means_within(fell, [None] * 98, 10, 1)[0]).any()
-    assert (means_within(np.ones(49), [None] * 49, 50, 1) == 1.0).all()
+    assert not np.diff(Ensemble(fell, None, 10, 1, 0.95).means()[0]).any()
+    assert (Ensemble(np.ones(49), None, 50, 1, 0.95).means() == 1.0).all()
 
 
 def test_paired_interval_is_that_of_scipy():
@@ -157,7 +157,7 @@ def test_paired_interval_is_that_of_scipy():
     first = random.random(60) < 0.5
     second = np.where(random.random(60) < 0.8, first, random.random(60) < 0.3)
     both = np.stack([first, second], axis=1).astype(float)
-    means = means_within(both, [None] * 60, 20000, 1)
+    means = Ensemble(both, None, 20000, 1, 0.95).means()
     value, *ends = interval(means[:, 0] - means[:, 1], 0.95)
     assert value == pytest.approx(first.mean() - second.mean())
     other = bootstrap(
@@ -179,7 +179,7 @@ def test_interval_within_groups_is_that_of_scipy():
     random = np.random.default_rng(9)
     parts = [random.random(25) < 0.1, random.random(40) < 0.7, random.random(35) < 0.95]
     fell, groups = np.concatenate(parts).astype(float), np.repeat(["a", "b", "c"], [25, 40, 35])
-    means = means_within(fell, groups.tolist(), 20000, 1)
+    means = Ensemble(fell, groups.tolist(), 20000, 1, 0.9).means()
     other = bootstrap(
         [part.astype(float) for part in parts],
         lambda *each, axis: sum(one.sum(axis=axis) for one in each) / 100.0,
@@ -260,7 +260,7 @@ def test_intervals_miss_the_true_value_as_often_as_the_docstring_says(motions, m
     missed, samples = np.zeros(2), 400
     for seed in range(samples):
         fell = outcomes_of(lognormal(motions, [1, seed], 1.0)[:, 0])
-        terms = fit(GRID, means_within(fell, [None] * motions, 300, seed), skewed=False)
+        terms = fit(GRID, Ensemble(fell, None, 300, seed, 0.95).means(), skewed=False)
         for place, (values, true) in enumerate(
             ((medians(GRID, terms), 1.0), (dispersions(terms), 0.4))
         ):

@@ -33,7 +33,7 @@ from topheavy.bodies.structures import (
 
 
 @dataclass(frozen=True)
-class _OneBody:
+class RigidBody:
     """One rigid body, symmetric about its vertical axis, on the two edges of its base."""
 
     column: Column
@@ -106,7 +106,7 @@ class _OneBody:
 
 
 @dataclass(frozen=True)
-class FixedMassColumn(_OneBody):
+class FixedMassColumn(RigidBody):
     """A column with a cap fixed rigidly to its top: a T, or a vase.
 
     Parameters
@@ -147,7 +147,7 @@ class FixedMassColumn(_OneBody):
 
 
 @dataclass(frozen=True)
-class MonolithicPortal(_OneBody):
+class MonolithicPortal(RigidBody):
     """Two columns with the cap beam fixed rigidly to both: it rocks about its outer edges.
 
     Parameters

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.structures import RockingBlock
-
-if TYPE_CHECKING:
-    import pandas
 
 MAX_SAMPLES = 10_000_000
 """Largest number of samples: three arrays of 80 MB."""
@@ -67,22 +64,6 @@ class Response:
     def overturned(self) -> bool:
         """Whether the structure overturned."""
         return self.outcome == "overturned"
-
-    def to_frame(self) -> pandas.DataFrame:
-        """Return rotation (rad) and velocity (rad/s) as a table over the time (s).
-
-        Examples
-        --------
-        >>> free = th.simulate(th.Column(0.5, 3.0), rotation=0.1, duration=0.5, samples=3)
-        >>> free.to_frame().rotation.round(4).tolist()
-        [0.1, 0.095, 0.0793]
-        """
-        import pandas
-
-        return pandas.DataFrame(
-            {"rotation": self.rotation, "velocity": self.velocity},
-            pandas.Index(self.time, name="time"),
-        )
 
     def __repr__(self) -> str:
         return (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any, Literal
@@ -52,8 +52,6 @@ class Fragility:
         Which motions overturn each structure of `curves` at each level.
     measure : str
         Of the intensity.
-    sampling : str
-        Which scatter the intervals include, in words.
     confidence : float
         Of each interval for itself, not of several together.
     factors : (float, float)
@@ -78,7 +76,6 @@ class Fragility:
     pairs: xarray.Dataset
     outcomes: Outcomes
     measure: str
-    sampling: str
     confidence: float
     factors: tuple[float, float]
     rotation_limit: float | None = None
@@ -96,9 +93,10 @@ class Fragility:
         unit = self.curves.level.attrs.get("units", "")
         first, last = (f"{float(self.curves.level[at]):.4g}" for at in (0, -1))
         levels = f"{self.measure} from {first} to {last} {unit}".rstrip()
-        motions = f"{self.outcomes.shape[0]} motions, {levels}"
+        motions = f"{self.outcomes.shape[0]} motions"
         scaled = "scaled by {:.3g} to {:.3g}".format(*self.factors)
-        lines = [f"{motions}, {scaled}; {self.confidence:.0%} intervals, {self.sampling}"]
+        intervals = f"{self.confidence:.0%} intervals, sampling of {motions}"
+        lines = [f"{motions}, {levels}, {scaled}; {intervals}"]
         for place in range(self.curves.sizes["structure"]):
             row = self.curves.isel(structure=place)
             why = self._why_no_median(row) if np.isnan(row.median_capacity) else ""
@@ -151,7 +149,6 @@ def fragility(
     *,
     vertical: Sequence[Record] | None = None,
     scale_vertical: bool = True,
-    groups: Sequence[Hashable] | None = None,
     rotation_limit: float | None = None,
     skewed: bool = False,
     confidence: float = 0.95,
@@ -187,10 +184,6 @@ def fragility(
         The vertical component of each motion, which starts with it: g, positive upward.
     scale_vertical : bool
         Whether a motion is scaled with its vertical component. The measure is that of the motion.
-    groups : sequence, optional
-        The group of each motion, such as its earthquake. Motions are then resampled only within
-        their group; the intervals do not include the scatter between groups, as `sampling` says.
-        Exact intervals remain valid, and are wider than necessary.
     rotation_limit : float, optional
         rad. The probability is then that of a larger |θ|; overturning counts as larger.
     skewed : bool
@@ -234,7 +227,6 @@ def fragility(
     blocks = named_blocks(structures)
     shaking = inputs.checked_motions(motions)
     steps = inputs.checked_levels(levels, measure)
-    members = inputs.checked_groups(groups, len(shaking))
     confidence, resamples, seed = inputs.checked_resampling(confidence, resamples, seed)
     scales = inputs.scale_factors(steps, inputs.intensities(shaking, measure))
     ups = inputs.checked_vertical(vertical, len(shaking))
@@ -253,14 +245,11 @@ def fragility(
         return overturned if limit is None else ~(peaks <= limit)  # also where it is NaN
 
     outcomes = np.array([*map(outcomes_of, shaking, ups, scales)])
-    ensemble = Ensemble(outcomes, members, resamples, seed, confidence)
+    ensemble = Ensemble(outcomes, None, resamples, seed, confidence)
     curves, pairs, places = tables(ensemble, steps, skewed=skewed)
     names = list(blocks)
     unit = {} if callable(measure) else {"units": inputs.UNITS[measure]}
     level = ("level", steps, unit)
-    sampling = f"sampling of {len(shaking)} motions"
-    if members:
-        sampling += f" within {len(set(members))} groups, without the scatter between groups"
     return Fragility(
         curves=curves.assign_coords(structure=names, level=level),
         pairs=pairs.assign_coords(
@@ -270,7 +259,6 @@ def fragility(
         ),
         outcomes=outcomes,
         measure=getattr(measure, "__name__", repr(measure)) if callable(measure) else measure,
-        sampling=sampling,
         confidence=confidence,
         factors=(float(scales.min()), float(scales.max())),
         rotation_limit=limit,

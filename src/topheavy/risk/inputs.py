@@ -1,4 +1,4 @@
-"""Checks of the arguments of `fragility`: structures, motions, intensities, levels and groups."""
+"""Checks of the arguments of `fragility`: structures, motions, intensities and levels."""
 
 import math
 from collections.abc import Callable, Hashable, Sequence
@@ -150,23 +150,6 @@ def scale_factors(
     if (most := float(factors[place].max())) > checks.MAX_USUAL_FACTOR:
         checks.warn(f"motions[{place}] is scaled by up to {most:.3g}: is it noise?")
     return factors
-
-
-def checked_groups(groups: Sequence[Hashable] | None, motions: int) -> list[Hashable] | None:
-    """Return the group of each motion, or raise ValueError unless there is one for each.
-
-    Where every motion has a group of its own, nothing can be resampled within groups.
-    """
-    if groups is None:
-        return None
-    members = [] if isinstance(groups, str) or not np.iterable(groups) else list(groups)
-    known = [one for one in members if isinstance(one, Hashable) and one == one]  # not NaN
-    if not len(known) == len(members) == motions > len(set(known)):
-        raise ValueError(
-            f"groups is {short_repr(groups)}; expected the group of each of {motions} motions, and "
-            "two motions in one group at least, since motions are resampled within their group"
-        )
-    return members
 
 
 def checked_resampling(confidence: float, resamples: int, seed: int) -> tuple[float, int, int]:

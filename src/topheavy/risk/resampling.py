@@ -36,23 +36,6 @@ def _sums(outcomes: Array, resamples: int, seed: int | Sequence[int]) -> Array:
     return total
 
 
-def means_within(
-    outcomes: ArrayLike, groups: Sequence[Hashable], resamples: int, seed: int
-) -> Array:
-    """Return the means of outcomes of shape (motions, ...), resampled within each group of motions.
-
-    Every resample has as many motions of a group as the ensemble has: the scatter between groups
-    is not in it. The shape is (1 + resamples, ...).
-    """
-    outcomes, members = np.asarray(outcomes), dict[Hashable, list[int]]()
-    for motion, group in enumerate(groups):
-        members.setdefault(group, []).append(motion)
-    total = np.zeros((1 + resamples, *outcomes.shape[1:]))
-    for number, motions in enumerate(members.values()):
-        total += _sums(outcomes[motions], resamples, [seed, number] if number else seed)
-    return total / len(outcomes)
-
-
 def interval(values: Array, confidence: float) -> tuple[Array, Array, Array]:
     """Return the value of the ensemble and both ends of its interval: percentiles of resamples.
 
@@ -97,10 +80,18 @@ class Ensemble:
         """Return means over the motions, of the ensemble and then of its resamples.
 
         Of the outcomes, or of values of shape (motions, ...): the shape is (1 + resamples, ...).
+        Every resample has as many motions of a group as the ensemble has: the scatter between
+        groups is not in it.
         """
-        of = self.outcomes if values is None else values
-        groups = self.groups or [None] * len(self.outcomes)
-        return means_within(of, groups, self.resamples, self.seed)
+        of = np.asarray(self.outcomes if values is None else values)
+        members = dict[Hashable, list[int]]()
+        for motion, group in enumerate(self.groups or [None] * len(of)):
+            members.setdefault(group, []).append(motion)
+        total = np.zeros((1 + self.resamples, *of.shape[1:]))
+        for number, motions in enumerate(members.values()):
+            seed = [self.seed, number] if number else self.seed
+            total += _sums(of[motions], self.resamples, seed)
+        return total / len(of)
 
     def bounds(self, name: str, values: Array) -> dict[str, Array]:
         """Return a value of the ensemble and the ends of its interval, named for a table."""
