@@ -73,14 +73,6 @@ class Grid(Span):
     points: Annotated[int, Field(ge=2, le=1000, strict=True)]
 
 
-class PulseOf(Section):
-    """A pulse: acceleration amplitude in g, period 2π/ω in s."""
-
-    shape: Shape
-    amplitude: Positive
-    period: Positive
-
-
 def section(shared: str = "", /, base: type[Section] = Section, **types: Any) -> Any:
     """Return the model of a section: the names of its `SHARED` entries, and the types of others."""
     entries = {name: SHARED[name] for name in shared.split()} | types
@@ -89,39 +81,54 @@ def section(shared: str = "", /, base: type[Section] = Section, **types: Any) ->
     )
 
 
-SHARED = {
-    "amplitudes": Grid,
-    "depths": Items[Positive],
-    "duration": Duration,
-    "frequency_ratio": Positive,
-    "frequency_ratios": Grid,
-    "friction": Positive,
-    "highest": Positive,
-    "mass_ratio": MassRatio,
-    "mass_ratios": Items[MassRatio],
-    "period": Positive,
-    "points": Count,
-    "resolution": Fraction,
-    "sample": Count,
-    "samples": Count,
-    "seed": Seed,
-    "shape": Shape,
-    "shapes": Items[Shape],
-    "shards": Count,
-    "slendernesses": Items[Degrees],
-    "structure": StructureName,
-    "time_step": Positive,
-    "velocities": Items[Positive],
-}
+TYPES = (
+    (
+        Positive,
+        "amplitude below damping_ratio depth directivity distance factor frame_frequency_parameter "
+        "frequency_ratio friction half_height half_width height highest largest largest_factor "
+        "longest magnitude period rocking site_velocity slow span sufficient table_amplitude "
+        "table_frequency time_constant time_step velocity width",
+    ),
+    (
+        Items[Positive],
+        "bays corners damping_ratios depths frames soils time_constants velocities",
+    ),
+    (
+        Fraction,
+        "change confidence contact covered floor lean near resolution risk share step wide",
+    ),
+    (Items[Fraction], "lowered reductions scatters windows"),
+    (
+        Count,
+        "check_samples counts cycles draws every fewer frames_per_second motions points resamples "
+        "rotations sample samples shards",
+    ),
+    (Grid, "amplitudes factors frequencies frequency_ratios intensities sizes"),
+    (Tolerance, "absolute relative tightened tolerance"),
+    (Degrees, "largest_slenderness slenderness"),
+    (Items[Degrees], "oblique slendernesses"),
+    (Number, "expected printed to"),
+    (MassRatio, "mass_ratio"),
+    (Items[MassRatio], "mass_ratios"),
+    (Duration, "duration ramp"),
+    (Pair, "half_measures masses"),
+    (Seed, "seed"),
+    (Shape, "shape"),
+    (Items[Shape], "shapes"),
+    (StructureName, "structure"),
+    (str, "quantity source"),
+)
+SHARED = {name: of for of, names in TYPES for name in names.split()}
 """Entries with the same type in every section that names them by its first argument."""
 
-Cap = section(width=Positive, depth=Positive)
-SHARED["cap"] = CapBeam = section(span=Positive, depth=Positive)
-SHARED["column"] = Column = section(half_width=Positive, half_height=Positive)
-PulseRatio = section("shape frequency_ratio")
-SHARED["bootstrap"] = section("seed", resamples=Count, confidence=Fraction)
+Cap = section("width depth")
+SHARED["cap"] = CapBeam = section("span depth")
+SHARED["column"] = Column = section("half_width half_height")
+SHARED["pulse"] = section("shape amplitude period")
+SHARED["pulses"] = Items[section("shape frequency_ratio")]
+SHARED["bootstrap"] = section("seed resamples confidence")
 SHARED["checks"] = Items[dict[Literal["time_step", "friction"], Positive]]
-SHARED["frames"] = dict[StructureName, Items[MassRatio]]
+FRAMES = dict[StructureName, Items[MassRatio]]
 
 
 class Consistent(Section):
@@ -151,167 +158,98 @@ class Consistent(Section):
 Paper = section(
     base=Consistent,
     structures=dict[str, Column],
-    solver=section(tightened=Tolerance),
-    reproducibility=section(relative=Tolerance, absolute=Tolerance, counts=Count),
+    solver=section("tightened"),
+    reproducibility=section("relative absolute counts"),
     parameters=section(
-        "mass_ratios points shape period",
-        largest=Positive,
-        largest_slenderness=Degrees,
+        "mass_ratios points shape period largest largest_slenderness frames rotations",
         slendernesses=Count,
-        frames=Items[Positive],
-        rotations=Count,
     ),
     trilith=section(
-        "mass_ratio duration amplitudes",
-        printed=section(
-            width=Positive,
-            height=Positive,
-            half_measures=Pair,
-            masses=Pair,
-            frame_frequency_parameter=Positive,
-        ),
-        table_amplitude=Positive,
-        table_frequency=Positive,
-        cycles=Count,
-        frequencies=Grid,
+        "mass_ratio duration amplitudes table_amplitude table_frequency cycles frequencies",
+        printed=section("width height half_measures masses frame_frequency_parameter"),
     ),
     allen=section(
-        "mass_ratio",
-        pulse=PulseOf,
-        factor=Positive,
-        errors=section(
-            "slendernesses amplitudes", pulses=Items[PulseRatio], mass_ratios=Items[Positive]
-        ),
-        maps=section("shape mass_ratio frequency_ratios amplitudes", slenderness=Degrees),
+        "mass_ratio pulse factor",
+        errors=section("slendernesses amplitudes pulses", mass_ratios=Items[Positive]),
+        maps=section("shape mass_ratio frequency_ratios amplitudes slenderness"),
     ),
     statements=section(
         "cap duration samples",
         mass_ratios=Items[Positive],
-        pulses=Items[section("shape frequency_ratio", amplitude=Positive)],
+        pulses=Items[section("shape frequency_ratio amplitude")],
     ),
     verification=section(
-        "seed sample shapes mass_ratios",
-        near=Fraction,
+        "seed sample shapes mass_ratios near",
         slendernesses=Range[Degrees],
         frequency_ratios=Range[Positive],
         amplitudes=Range[Positive],
-        published=Items[
-            section(
-                quantity=str,
-                source=str,
-                printed=Number,
-                to=Number,
-                expected=Number,
-                tolerance=Tolerance,
-            )
-        ],
+        published=Items[section("quantity source printed to expected tolerance")],
     ),
     spectra=section(
         "shards slendernesses shapes mass_ratios frequency_ratios",
         amplitudes=section("resolution", Span),
-        again=section("resolution", every=Count),
-        finer=section("resolution", below=Positive),
-        near=section("resolution", share=Fraction),
-        collapse=section(slow=Positive, covered=Fraction),
-        cycles=section("frequency_ratios highest resolution", numbers=Items[Count], wide=Fraction),
+        again=section("resolution every"),
+        finer=section("resolution below"),
+        near=section("resolution share"),
+        collapse=section("slow covered"),
+        cycles=section("frequency_ratios highest resolution wide", numbers=Items[Count]),
         sample=section("points seed"),
     ),
     vase=section(
-        "mass_ratios shapes period highest sample",
+        "mass_ratios shapes period highest sample longest floor wide",
         grids=Items[section("shapes mass_ratios frequency_ratios")],
-        longest=Positive,
-        floor=Fraction,
-        search=section(floor=Fraction, below=Positive, near=Fraction),
-        wide=Fraction,
+        search=section("floor below near"),
         portal=CapBeam,
         picture=section("mass_ratio", amplitudes=Items[Positive], cap=Cap),
     ),
     uplift=section(
         "cap mass_ratios shapes frequency_ratios points sample", amplitudes=Items[Positive]
     ),
-    animation=section("mass_ratio duration", cap=Cap, pulse=PulseOf, frames_per_second=Count),
+    animation=section("mass_ratio duration pulse frames_per_second", cap=Cap),
     motions=section(
-        "shards mass_ratios structure mass_ratio seed bootstrap sample",
+        "shards mass_ratios structure mass_ratio seed bootstrap sample motions fewer velocity "
+        "change intensities largest_factor",
         structures=Items[StructureName],
-        motions=Count,
-        fewer=Count,
-        scenarios=Items[
-            section(
-                magnitude=Positive, distance=Positive, site_velocity=Positive, directivity=Positive
-            )
-        ],
-        velocity=Positive,
-        change=Fraction,
-        rotations=section("velocities", motions=Count),
-        intensities=Grid,
-        largest_factor=Positive,
-        noise=section("seed", soils=Items[Positive], corners=Items[Positive], motions=Count),
+        scenarios=Items[section("magnitude distance site_velocity directivity")],
+        rotations=section("velocities motions"),
+        noise=section("seed soils corners motions"),
         vertical=section(share=Positive),
     ),
     break_even=section(
-        "velocities bootstrap sample",
-        reductions=section(highest=Fraction, step=Fraction),
-        lowered=Items[Fraction],
+        "velocities bootstrap sample lowered contact",
+        reductions=section("step", highest=Fraction),
         measured=Range[Fraction],
-        contact=Fraction,
     ),
     records=section(
-        "mass_ratios slendernesses sample",
-        sizes=Grid,
-        factors=Grid,
-        capacity=section(
-            "structure mass_ratios highest", step=Fraction, windows=Items[Fraction], share=Fraction
-        ),
+        "mass_ratios slendernesses sample sizes factors",
+        capacity=section("structure mass_ratios highest step windows share"),
     ),
     friction=section(
-        "structure shapes frequency_ratios amplitudes samples",
+        "structure shapes frequency_ratios amplitudes samples bays depth sufficient check_samples",
         mass_ratios=Items[Positive],
-        bays=Items[Positive],
-        depth=Positive,
-        sufficient=Positive,
-        check_samples=Count,
     ),
     designers=section("structure mass_ratios velocities"),
     engine=section(
         caps=dict[StructureName, CapBeam],
-        restitution=section(
-            "frames",
-            lean=Fraction,
-            damping_ratios=Items[Positive],
-            time_constants=Items[Positive],
-        ),
+        restitution=section("lean damping_ratios time_constants", frames=FRAMES),
         outcomes=section(
-            "frames friction time_step",
-            pulses=Items[PulseRatio],
+            "friction time_step pulses lean",
+            frames=FRAMES,
             factors=Items[Positive],
             contacts=section(
-                **dict.fromkeys(
-                    ("no rebound", "rebound"),
-                    section(time_constant=Positive, damping_ratio=Positive),
-                )
+                **dict.fromkeys(("no rebound", "rebound"), section("time_constant damping_ratio"))
             ),
-            lean=Fraction,
         ),
         across=section(
-            "structure shape depths time_step friction checks",
+            "structure shape depths time_step friction checks oblique",
             mass_ratios=Items[Positive],
             frequency_ratios=Items[Positive],
-            oblique=Items[Degrees],
             step=Positive,
         ),
     ),
     gaps=section(
-        "cap depths seed duration time_step friction checks",
+        "cap depths seed duration time_step friction checks draws ramp rocking",
         gaps=Items[NotNegative],
-        draws=Count,
-        ramp=Duration,
-        rocking=Positive,
     ),
-    test_plan=section(
-        "column shape frequency_ratio",
-        mass_ratio=Positive,
-        reductions=Items[Fraction],
-        scatters=Items[Fraction],
-        risk=Fraction,
-    ),
+    test_plan=section("column shape frequency_ratio reductions scatters risk", mass_ratio=Positive),
 )
