@@ -1,10 +1,9 @@
-"""Captions, article, supplement and the list of verdicts name what there is."""
+"""Captions, article and supplement name what there is."""
 
 import re
 
 import yaml
 
-from documents import lists
 from tests.cases import ROOT
 
 TEXTS = {name: (ROOT / f"paper/{name}.typ").read_text("utf-8") for name in ("report", "supplement")}
@@ -24,36 +23,6 @@ def test_captions_name_claims_that_there_are():
     for name, caption in CAPTIONS.items():
         assert set(caption) == {"title", "alt", "text", "claims"}, name
         assert set(caption["claims"]) <= known, name
-
-
-CLAIM = {
-    "id": "uplift", "where": "p. 3", "statement": "At |θ| = 0.", "printed": 0.275, "unit": "g",
-    "rule": "trilith", "finding": "uplift", "differs": "", "remark": "For one pulse.",
-    "part": "paper", "verdict": "confirmed", "shown": "0.2750 g", "condition": None,
-}  # fmt: skip
-
-
-def claims(*rows, captions=None):
-    return lists.claims(lists.Run(list(rows), captions or {}), lists.Docs())
-
-
-def test_a_confirmed_claim_is_one_line_with_links():
-    text = claims(CLAIM, captions={"map": {"claims": ["uplift"]}})
-    assert (
-        '| <a id="uplift"></a>`uplift`, p. 3. At &#124;θ&#124; = 0. | 0.275 g | 0.2750 g | '
-        "**confirmed** | [trilith.uplift](numbers.md#trilith.uplift), "
-        "[figures/map.py](../figures/map.py) |"
-    ) in text
-    assert "For one pulse." not in text
-
-
-def test_other_claims_come_first_with_a_reason_and_a_discrepancy_has_its_place():
-    qualified = CLAIM | {"id": "late", "verdict": "qualified", "condition": "ω is at most 2 p"}
-    text = claims(CLAIM, CLAIM | {"id": "copy", "differs": "sign"}, qualified)
-    assert "<br>True if ω is at most 2 p. For one pulse. |" in text
-    assert "**confirmed** (our copy differs) |" in text
-    assert "- p. 3 (`copy`), sign. For one pulse." in text
-    assert text.index('id="late"') < text.index('id="copy"') < text.index('id="uplift"')
 
 
 def test_each_reference_is_cited_and_each_source_is_a_reference():

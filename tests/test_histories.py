@@ -72,26 +72,6 @@ def test_samples_only_look(solve, block, pulse, rotation):
 
 
 @EVERY
-def test_history_is_consistent_with_itself(solve, block):
-    for shape, amplitudes in (("one-sine", (0.3, 0.6, 4.0)), ("one-cosine", (0.6,))):
-        for amplitude in amplitudes:
-            pulse = th.Pulse(shape, amplitude, 9.0)
-            found = solve(block, pulse, samples=np.linspace(0.0, 2 * pulse.duration, 501))
-            assert found.overturned == (found.outcome == "overturned")
-            assert math.isnan(found.peak_rotation) == found.overturned
-            assert np.all(np.diff(found.impact_times, prepend=0.0) > 0)
-            step = found.time[1]
-            slope = (found.rotation[2:] - found.rotation[:-2]) / (2 * step)
-            apart = np.abs(found.time[1:-1, None] - [*found.impact_times, math.inf]).min(axis=1)
-            aloft = (apart > 2 * step) & (np.abs(found.rotation[1:-1]) > 1e-3) & np.isfinite(slope)
-            np.testing.assert_allclose(slope[aloft], found.velocity[1:-1][aloft], atol=0.02)
-            if not found.overturned:
-                assert np.max(np.abs(found.rotation)) <= found.peak_rotation * (1 + 1e-9)
-                forced = np.count_nonzero(found.impact_times <= pulse.duration)
-                assert found.number_of_impacts == forced
-
-
-@EVERY
 def test_cut_motion_is_judged_by_what_is_left_of_it(solve, block):
     """A one-sine that ends at half its duration is a half-sine, a harmonic after one cycle one."""
     half, once = th.Pulse("half-sine", 0.5, 9.0), {"duration": SHAKEN.duration, "samples": 50}

@@ -123,6 +123,16 @@ def test_numbers_of_numpy_are_numbers(function, values, name):
     plt.close("all")
 
 
+SIGNED = {"amplitude", "factor", "rotation", "start", "velocity"}
+
+
+@each(lambda value: isinstance(value, int | float) and not isinstance(value, bool))
+def test_number_without_a_sign_is_no_less_than_zero(function, values, name):
+    for value in (-0.001, -math.inf)[name in SIGNED :]:
+        with pytest.raises(ValueError, match=r"(?s)expected"):
+            function(**values | {name: value})
+
+
 @each(lambda value: np.ndim(value) == 1)
 def test_masked_elements_are_refused(function, values, name):
     value = np.ma.masked_array(values[name], [True, *[False] * (len(values[name]) - 1)])
@@ -169,38 +179,21 @@ def arias(motion):
 BAD = {  # what the message begins with or has, and what is called
     "half_width is -0.2 m; expected more than zero": lambda: th.Column(-0.2, 3.0),
     "half_width is 1e+300 m; expected at most 1e+09 m": lambda: th.Column(1e300, 3.0),
-    "half_height is 0 m; expected more than zero": lambda: th.Column(0.5, 0.0),
     "mass_ratio is -1e-300; expected γ": lambda: th.RockingFrame(COLUMN, -1e-300),
     "mass_ratio is nan; expected γ": lambda: th.RockingFrame(COLUMN, math.nan),
     "columns is 1; expected a whole number from 2 to": lambda: of(1.0, 1.0, columns=1),
-    "columns is 2.5; expected a whole number": lambda: of(1.0, 1.0, columns=2.5),
-    "columns is 100000; expected a whole number": lambda: th.RockingFrame(COLUMN, 1.0, 10**5),
-    "column_mass is 0; expected more than zero": lambda: of(1.0, 0.0),
-    "cap_mass is -1; expected zero or more": lambda: of(-1.0, 1.0),
     "frequency_parameter is 0": lambda: th.RockingBlock(0.0, 0.25, 0.9),
     "slenderness is 0 rad": lambda: th.RockingBlock(2.0, 0.0, 0.9),
     "slenderness is 1.5708 rad (90°); expected": lambda: th.RockingBlock(2.0, math.pi / 2, 0.9),
     "restitution is -0.01; expected a number from 0 to 1": lambda: th.RockingBlock(2, 0.25, -0.01),
     "restitution is 1.01; expected a number from": lambda: th.RockingBlock(2.0, 0.25, 1.01),
-    "restitution is -0.02; expected a number": lambda: BLOCK.with_restitution(-0.02),
-    "restitution is 1.02; expected a number from": lambda: COLUMN.block(restitution=1.02),
-    "restitution is 1.03; expected a number from": lambda: FRAME.block(restitution=1.03),
-    "mass_ratio is -0.1; expected": lambda: th.FixedMassColumn(COLUMN, -0.1),
-    "mass_ratio is -0.2; expected": lambda: th.MonolithicPortal(COLUMN, -0.2, 4.2),
-    "cap_width is -0.1 m; expected": lambda: th.FixedMassColumn(COLUMN, 1.0, cap_width=-0.1),
-    "cap_depth is -0.1 m; expected": lambda: th.FixedMassColumn(COLUMN, 1.0, cap_depth=-0.1),
-    "cap_depth is -0.2 m; expected": lambda: th.MonolithicPortal(COLUMN, 1, 4.2, cap_depth=-0.2),
-    "overhang is -0.1 m; expected": lambda: th.MonolithicPortal(COLUMN, 1.0, 4.2, overhang=-0.1),
-    "span is -0.1 m; expected": lambda: th.MonolithicPortal(COLUMN, 1.0, -0.1),
     "span is 0.9 m; expected more than the width": lambda: th.MonolithicPortal(COLUMN, 1.0, 0.9),
     "45°": lambda: simplified(th.RockingFrame(th.Column(1.1, 1.0), 0.1)),
     "expected a finite γ": lambda: restoring_moment(th.RockingFrame(COLUMN, math.inf), 0.1),
     "rotation is 0 rad; expected between 0 and α = 0.25": lambda: quarter_period(BLOCK, 0.0),
-    "rotation is 0.25 rad; expected between 0 and α": lambda: quarter_period(BLOCK, 0.25),
     "slenderness is 1.10715 rad (63.43°)": lambda: th.simulate(STOCKY, PULSE),
     # ground
     "amplitude is 1e+160 g; expected at most": lambda: th.Pulse("one-sine", 1e160, 5.0),
-    "period is 0 s; expected more than zero": lambda: th.Pulse("one-sine", 0.3, period=0.0),
     "angular_frequency is None and period is None": lambda: th.Pulse("one-sine", 0.3),
     "is 2.0 and period is 3.0; expected one": lambda: th.Pulse("one-sine", 0.3, 2.0, period=3.0),
     "cycles is 0; expected a whole number from 1 to 100": lambda: th.Pulse(
@@ -209,7 +202,6 @@ BAD = {  # what the message begins with or has, and what is called
     "cycles is 101; expected": lambda: th.Pulse(**SINE, cycles=101, period=1),
     "cycles is 2 for shape 'half-sine'": lambda: th.Pulse("half-sine", 0.3, 5.0, cycles=2),
     "'onesine' (did you mean 'one-sine'?)": lambda: th.Pulse("onesine", 0.3, 5.0),
-    "'One-Sine' (did you mean 'one-sine'?)": lambda: th.Pulse("One-Sine", 0.3, 5.0),
     f"'sawtooth'; expected one of {', '.join(PULSE_SHAPES)}": lambda: th.Pulse("sawtooth", 1, 1),
     "t holds NaN; expected times in s": lambda: PULSE.excitation(math.nan),
     "t: element 0 is '0.3'; expected a number": lambda: PULSE.excitation("0.3"),
@@ -221,8 +213,6 @@ BAD = {  # what the message begins with or has, and what is called
     "has shape (1, 2); expected at least two samples": lambda: record([[0.1, 0.2]]),
     "name is 'm/s2'; expected a text that is no": lambda: record([0.0, 0.1], "m/s2"),
     "record 'a': unit is 'm/s'; expected one of g, %g": lambda: record([0, 1], "a", unit="m/s"),
-    "time_step is -0.02 s": lambda: th.Record(-0.02, [0.0, 0.1]),
-    "time_step is 1e+300 s; expected at most 1e+09 s": lambda: th.Record(1e300, [0.0, 0.1]),
     "start is nan": lambda: record([0.0, 0.1], start=math.nan),
     "pga is None, pgv is None; expected one of both": lambda: SHAKING.scaled_to(),
     "pga is 1, pgv is 2; expected one of both": lambda: SHAKING.scaled_to(pga=1, pgv=2),
@@ -239,27 +229,18 @@ BAD = {  # what the message begins with or has, and what is called
     "g; expected at most 1e+06 g": lambda: th.peak_rotations(COLUMN, SHAKING, [1e70]),
     "'harmonic', which goes on forever": lambda: a_map("harmonic", [1.0], [0.3]),
     "scales has shape (0,); expected a list": lambda: a_map("one-sine", [], [0.3]),
-    "scales holds nan; expected finite": lambda: a_map("one-sine", [1.0, math.nan], [0.3]),
     "scales goes down to 0; it cannot be zero or": lambda: a_map("one-sine", [1.0, 0.0], [0.3]),
-    "scales: element 0 is '1.0'; expected a number": lambda: a_map("one-sine", ["1.0"], [0.3]),
-    "amplitudes has shape (1, 1); expected a list": lambda: a_map("one-sine", [1.0], [[0.3]]),
-    "amplitudes goes down to -0.1; it cannot be neg": lambda: a_map("one-sine", [1], [0.3, -0.1]),
     "scales by amplitudes: 4e+08 cells; expected": lambda: a_map("one-sine", FINE, FINE),
     "scales is 1e+70 m; expected": lambda: a_map(SHAKING, [1e70], [0.1]),
     "record 'still' has a peak acceleration of 0 g": lambda: a_map(STILL, [1.0], [0.3]),
     "amplitudes is 1e+07 g": lambda: a_map(SHAKING, [1.0], [1e7]),
     "scale_range is (2, 1); expected it to ascend": lambda: lowest(PULSE, (2.0, 1.0), floor=0.1),
     "scale_range begins at -1;": lambda: lowest(PULSE, (-1.0, 1.0), floor=0.1),
-    "scale_range is inf": lambda: lowest(PULSE, (0.0, math.inf), floor=0.1),
-    "scale_range has shape (3,); expected": lambda: lowest(PULSE, (0.0, 1.0, 2.0), floor=0.1),
     "floor is 0; expected more than zero": lambda: lowest(PULSE, (0.0, 1.0), floor=0.0),
     "floor is 1e-11 of 4.5 to 8": lambda: lowest(PULSE, (4.5, 8.0), floor=1e-11),
     "excitation is 3; expected a Pulse": lambda: lowest(3, (0.0, 1.0), floor=0.1),
-    "structure is 3; expected a Column": lambda: th.lowest_overturning(3, PULSE, (0, 1), floor=1),
     "scale_range is (1, 1); expected": lambda: intervals((1.0, 1.0), resolution=0.1),
-    "resolution is -0.1": lambda: intervals((0.0, 1.0), resolution=-0.1),
     "resolution is 1e-300 of 0 to 5": lambda: intervals((0.0, 5.0), resolution=1e-300),
-    "most_impacts is -1": lambda: intervals((0.0, 1.0), resolution=0.1, most_impacts=-1),
     "periods goes down to 0": lambda: th.overturning_spectrum(BLOCK, "one-sine", [0.0, 1.0]),
     "which goes on forever": lambda: th.overturning_spectrum(BLOCK, "harmonic", [1.0]),
     "highest is 0.5; exp": lambda: th.overturning_spectrum(BLOCK, "one-sine", 1, highest=0.5),
@@ -271,8 +252,6 @@ BAD = {  # what the message begins with or has, and what is called
     "the block is not linearised": lambda: closed(COLUMN.block(), PULSE),
     ", ".join(ELEMENTARY): lambda: closed(COLUMN.block().linear(), RICKER),
     # forces
-    "span is 0 m; expected more than zero": lambda: th.Cap(span=0.0, half_depth=0.3),
-    "half_depth is inf; expected a finite": lambda: th.Cap(span=3.0, half_depth=math.inf),
     "span is 1 m; expected more than the width of": lambda: forces_at(FRAME, NARROW, 0.1, 0, 0),
     "distance between their axes": lambda: th.impact_impulses(FRAME, NARROW, 0.1),
     "rotation: element 0 is '0.1'": lambda: forces_at(FRAME, CAP, "0.1", 0.1, 0.0),
