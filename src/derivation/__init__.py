@@ -15,11 +15,13 @@ from derivation.printed import PrintedCheck, check_printed
 
 __all__ = ["PrintedCheck", "Theorem", "check_printed", "theorems"]
 
-PROOFS = {
-    "paper": (*consequences.PROOFS, *fixed_mass.PROOFS),
-    "extensions": extensions.PROOFS,
-    "reversals": reversals.PROOFS,
+MODULES = {
+    consequences: "paper",
+    fixed_mass: "paper",
+    extensions: "extensions",
+    reversals: "reversals",
 }
+"""Each of their functions without arguments that returns whether something is so is a proof."""
 
 
 class Theorem(NamedTuple):
@@ -34,9 +36,11 @@ class Theorem(NamedTuple):
 def theorems() -> list[Theorem]:
     """Prove all theorems; the first paragraph of a proof's docstring states it."""
     return [
-        Theorem(about, proof.__name__, _first_paragraph(inspect.getdoc(proof) or ""), proof())
-        for about, proofs in PROOFS.items()
-        for proof in proofs
+        Theorem(about, name, _first_paragraph(inspect.getdoc(proof) or ""), proof())
+        for module, about in MODULES.items()
+        for name, proof in vars(module).items()
+        if inspect.isfunction(proof) and proof.__module__ == module.__name__
+        if str(inspect.signature(proof)) == "() -> 'bool'"
     ]
 
 

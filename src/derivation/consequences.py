@@ -1,4 +1,4 @@
-"""What the derivation implies. Each function of `PROOFS` proves what its docstring states.
+"""What the derivation implies.
 
 With x = tan² α > 0, what the impact gives is a rational function of x and γ, whose sign shows when
 it is factored.
@@ -64,26 +64,6 @@ _x = sp.Symbol("x", positive=True)
 # Motion -------------------------------------------------------------------------------------------
 
 
-def cap_moment(side: Side) -> sp.Expr:
-    """The clockwise moment of two columns on the cap beam about its centre, which vanishes.
-
-    L is the distance between the columns' axes, d half the depth of the beam.
-    """
-    span, shift = sp.Symbol("L", positive=True), -side.sign * R * sp.sin(alpha)
-    left, right = (sp.Matrix([shift + end * span / 2, -half_depth]) for end in (-1, 1))
-    return moment(left, sp.Matrix([F_x1, F_z1])) + moment(right, sp.Matrix([F_x2, F_z2]))
-
-
-def cap_moment_is_not_needed() -> bool:
-    """The motion follows without the cap beam's moments, which only share out the forces."""
-    for side in SIDES:
-        motion = frame_motion(side)
-        shares = sp.diff(cap_moment(side).subs(motion), F_z1)
-        if F_z1 in motion[acceleration].free_symbols or is_identically_zero(shares, side):
-            return False
-    return True
-
-
 def follows_if_a_column_weighs(share: sp.Expr) -> bool:
     """Whether γ = m_b/2m_c gives the factor of Eq. (19) if one column has this share of m_c."""
     masses = {m_c: share * m_c, I_o: sp.Rational(4, 3) * share * m_c * R**2, m_b: 2 * gamma * m_c}
@@ -104,6 +84,26 @@ def m_c_is_the_mass_of_each_column() -> bool:
     return follows_if_a_column_weighs(sp.Integer(1)) and not follows_if_a_column_weighs(
         sp.Rational(1, 2)
     )
+
+
+def cap_moment(side: Side) -> sp.Expr:
+    """The clockwise moment of two columns on the cap beam about its centre, which vanishes.
+
+    L is the distance between the columns' axes, d half the depth of the beam.
+    """
+    span, shift = sp.Symbol("L", positive=True), -side.sign * R * sp.sin(alpha)
+    left, right = (sp.Matrix([shift + end * span / 2, -half_depth]) for end in (-1, 1))
+    return moment(left, sp.Matrix([F_x1, F_z1])) + moment(right, sp.Matrix([F_x2, F_z2]))
+
+
+def cap_moment_is_not_needed() -> bool:
+    """The motion follows without the cap beam's moments, which only share out the forces."""
+    for side in SIDES:
+        motion = frame_motion(side)
+        shares = sp.diff(cap_moment(side).subs(motion), F_z1)
+        if F_z1 in motion[acceleration].free_symbols or is_identically_zero(shares, side):
+            return False
+    return True
 
 
 def quadratic_terms_cancel() -> bool:
@@ -127,19 +127,19 @@ def frame_rocks_as_a_column() -> bool:
     return follows_if_a_column_weighs(sp.Integer(1))
 
 
-def frame_uplifts_with_its_column() -> bool:
-    """Column and frame start to rock at the same ground acceleration, ±g tan α, for every γ."""
+def ground_to_the_right_rocks_to_the_left() -> bool:
+    """Ground that accelerates to the right turns column and frame towards θ < 0."""
     return all(
-        is_identically_zero(uplift_acceleration(motion, side) + side.sign * g * sp.tan(alpha), side)
+        (sp.diff(motion, ground_acceleration) / sp.cos(side.lean)).cancel().is_negative
         for side in SIDES
         for motion in (column_motion(side), frame_motion(side)[acceleration])
     )
 
 
-def ground_to_the_right_rocks_to_the_left() -> bool:
-    """Ground that accelerates to the right turns column and frame towards θ < 0."""
+def frame_uplifts_with_its_column() -> bool:
+    """Column and frame start to rock at the same ground acceleration, ±g tan α, for every γ."""
     return all(
-        (sp.diff(motion, ground_acceleration) / sp.cos(side.lean)).cancel().is_negative
+        is_identically_zero(uplift_acceleration(motion, side) + side.sign * g * sp.tan(alpha), side)
         for side in SIDES
         for motion in (column_motion(side), frame_motion(side)[acceleration])
     )
@@ -271,24 +271,3 @@ def heavy_cap_beam_nearly_caps_the_base_shear() -> bool:
     return bool(falls) and all(
         sp.simplify(end - limit) == 0 for end, limit in zip(ends, stated, strict=True)
     )
-
-
-PROOFS = (
-    m_c_is_the_mass_of_each_column,
-    cap_moment_is_not_needed,
-    quadratic_terms_cancel,
-    lagrange_agrees,
-    frame_rocks_as_a_column,
-    ground_to_the_right_rocks_to_the_left,
-    frame_uplifts_with_its_column,
-    energy_is_conserved_between_impacts,
-    restoring_moment_falls,
-    size_grows_to_a_limit,
-    shear_was_reversed,
-    kinetic_energy_ratio_is_velocity_ratio_squared,
-    restitution_is_below_the_columns,
-    impact_never_adds_energy,
-    frame_rocks_on_below_its_largest_slenderness,
-    base_shear_grows_after_uplift,
-    heavy_cap_beam_nearly_caps_the_base_shear,
-)

@@ -1,7 +1,6 @@
 """N columns, vertical ground motion, short and long pulses, the frame across its plane.
 
-Each function proves what its docstring states. Makris & Vassiliou (2013) give the equation of N
-columns by Lagrange.
+Makris & Vassiliou (2013) give the equation of N columns by Lagrange.
 """
 
 from __future__ import annotations
@@ -202,17 +201,3 @@ def deep_columns_uplift_in_the_plane_first() -> bool:
         and ratio.subs(gamma, 0) == 1
         and sp.simplify(sp.limit(ratio, gamma, sp.oo) - 2 - half_depth / h) == 0
     )
-
-
-PROOFS = (
-    size_only_slows_time,
-    columns_count_only_in_the_mass_ratio,
-    impacts_do_not_count_the_columns,
-    vertical_acceleration_is_a_change_of_gravity_and_push,
-    growing_term_is_a_weighted_mean_of_the_pulse,
-    short_pulses_gain_by_the_order_of_their_moment,
-    long_pulses_leave_no_gain,
-    level_cap_has_no_balance_across,
-    frame_across_its_plane_is_a_fixed_mass,
-    deep_columns_uplift_in_the_plane_first,
-)

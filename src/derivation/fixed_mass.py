@@ -125,9 +125,3 @@ def fixed_mass_lowers_the_uplift_acceleration() -> bool:
     ends = (stated.subs(gamma, 0), sp.limit(stated, gamma, sp.oo))
     reached = ends == (sp.tan(alpha), sp.tan(alpha) / 2)
     return reached and all(falls) and is_identically_zero(concentrated - stated, NEGATIVE)
-
-
-PROOFS = (
-    fixed_mass_rocks_as_one_column,
-    fixed_mass_lowers_the_uplift_acceleration,
-)

@@ -181,16 +181,3 @@ def push_in_one_direction_only_helps_that_side() -> bool:
                 == 0
             )
     return all(identities)
-
-
-PROOFS = (
-    mass_ratio_leaves_only_the_time_scale,
-    difference_is_driven_by_the_heavier_frame,
-    difference_never_falls,
-    overturning_is_a_growing_term,
-    lighter_frame_has_the_larger_growing_term,
-    larger_rotation_feels_the_larger_push,
-    far_enough_out_nothing_brings_it_back,
-    difference_grows_under_vertical_acceleration,
-    push_in_one_direction_only_helps_that_side,
-)
