@@ -91,7 +91,7 @@ def test_dropped_record_is_shown_and_a_bad_one_is_refused(browser, square):
 
 def test_long_record_is_shown_and_its_map_can_be_left(browser, square):
     browser.open()
-    assert browser.drop("long.csv", square(0.4, 0.001, 100_000)) == ""
+    assert browser.drop("long.csv", square(0.4, 0.001, 40_000)) == ""
     browser.settle()
     assert browser.do("found.peak") == pytest.approx(0.4)
     browser.wait("document.getElementById('progress').value > 0")

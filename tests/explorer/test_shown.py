@@ -50,7 +50,7 @@ def test_outcomes_are_shown_before_the_film(browser):
     assert browser.do(OUTCOMES) == 3 * [["overturns", "overturns", "overturns"]]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("number", range(6))
 def test_case_is_played_without_a_fault(browser, number):
     browser.open(moves=True)

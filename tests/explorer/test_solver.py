@@ -147,7 +147,7 @@ def searched(structure, unit, windows):
     return math.inf
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("number", range(6))
 def test_named_case_has_the_numbers_of_the_library(browser, records, number):
     browser.open_to_compute()
