@@ -58,11 +58,6 @@ class ThreeBodies:
         Distance between the axes of the columns, m, more than their width.
     cap_depth : float
         Depth of the cap beam, m: a homogeneous rectangle that ends flush with the columns.
-
-    Raises
-    ------
-    ValueError
-        For γ = ∞, columns that overlap, or lengths that are not positive.
     """
 
     frame: RockingFrame
@@ -95,18 +90,12 @@ class ThreeBodies:
             matrix[3 * _BODY + axis, _ROWS + axis] = _SIGN
         return matrix
 
-    @cached_property
-    def _arms(self) -> tuple[Vector, Vector, Vector]:
-        """Of the six points, from their body's centre: x under the axis, x for side +1, and z."""
-        b, h = self.frame.column.half_width, self.frame.column.half_height
-        x, z = self.span / 2.0, self.cap_depth / 2.0
-        axis = np.array([0.0, 0.0, -x, x, 0.0, 0.0])
-        return axis, np.array([b, b, -b, -b, -b, -b]), np.array([-h, -h, -z, -z, h, h])
-
     def arms(self, sides: Sides) -> tuple[Vector, Vector]:
         """Return x and z (m) of the six points from the centres of their upright bodies."""
-        axis, corner, z = self._arms
-        return axis + corner * np.array(sides)[_COLUMN], z
+        b, h = self.frame.column.half_width, self.frame.column.half_height
+        x, z = self.span / 2.0, self.cap_depth / 2.0
+        corner = np.array([b, b, -b, -b, -b, -b]) * np.array(sides)[_COLUMN]
+        return np.array([0.0, 0.0, -x, x, 0.0, 0.0]) + corner, np.array([-h, -h, -z, -z, h, h])
 
     def turned_arms(self, sides: Sides, coordinates: Vector) -> tuple[Vector, Vector]:
         """Return x and z (m) of the six points from the centres of their bodies."""
@@ -140,22 +129,9 @@ def accelerations(
     velocity: Vector,
     ground: float,
 ) -> tuple[Vector, Vector]:
-    """Return q̈, shape (9,), and the contact forces, shape (4, 2), from Newton–Euler.
+    """Return q̈, shape (9,), and the contact forces, shape (4, 2), of q and q̇ under ü_g (g).
 
-    Parameters
-    ----------
-    bodies : ThreeBodies
-    sides : (int, int)
-        The base corners in contact with the ground.
-    coordinates, velocity : ndarray, shape (9,)
-        q (m, rad) and q̇ (m/s, rad/s), relative to the ground.
-    ground : float
-        ü_g, g.
-
-    Returns
-    -------
-    accelerations, forces : ndarray
-        m/s² and rad/s²; N, on the upper body of each contact, to the right and upward.
+    Forces (N) act on the upper body of each contact, to the right and upward.
     """
     turned = bodies.turned_arms(sides, coordinates)
     load = np.zeros(17)
@@ -172,15 +148,7 @@ def accelerations(
 def impact(bodies: ThreeBodies, sides: Sides, velocity: Vector) -> tuple[Vector, Vector]:
     """Return q̇ behind an impact of the upright frame, shape (9,), and the impulses, shape (4, 2).
 
-    Impulses (N s, on the upper body) act at the new corners; the old contacts open.
-
-    Parameters
-    ----------
-    bodies : ThreeBodies
-    sides : (int, int)
-        The new base corners in contact with the ground.
-    velocity : ndarray, shape (9,)
-        q̇ before the impact.
+    Impulses (N s, on the upper body) act at the new corners, `sides`; the old contacts open.
     """
     momentum = np.concatenate([bodies.mass * velocity, np.zeros(8)])
     return _solve(bodies.matrix(bodies.arms(sides)), momentum)
