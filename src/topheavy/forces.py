@@ -41,6 +41,7 @@ from topheavy.bodies.structures import (
     Column,
     RockingFrame,
     checked_two_columns,
+    weights,
 )
 from topheavy.checks import short_repr
 from topheavy.ground.excitation import checked_excitation
@@ -422,32 +423,17 @@ def _distributed(
     return ContactForces(*components)
 
 
-def weights(mass_ratio: float) -> tuple[float, float]:
-    """Return the shares of one column and of the cap beam in the weight of the frame."""
-    if mass_ratio == math.inf:
-        return 0.0, 1.0
-    return 0.5 / (1.0 + mass_ratio), mass_ratio / (1.0 + mass_ratio)
+class FrameForces(NamedTuple):
+    """Forces of a rocking frame normalised by its weight (moments in m), over its motion.
 
-
-@dataclass(frozen=True, eq=False, repr=False)
-class FrameForces:
-    """Forces of a rocking frame normalised by its weight, each of the shape of the motion.
-
-    Attributes
-    ----------
-    base_shear : ndarray
-        Horizontal force of the ground on both columns, normalised by the weight.
-    overturning_moment : ndarray
-        Of the ground's reactions about the point of the ground midway between the resting columns,
-        normalised by the weight, m.
-    bending_moment : ndarray, shape (2, ..., sections)
-        In the left and the right column at the heights SECTIONS, normalised by the weight, m.
+    The base shear is that of the ground on both columns; the overturning moment is about the point
+    midway between the resting columns; the bending moment, of shape (2, ..., sections), is in the
+    left and the right column at the heights SECTIONS.
     """
 
     base_shear: Array
     overturning_moment: Array
     bending_moment: Array
-    __repr__ = checks.repr_of_fields
 
 
 def frame_forces(

@@ -29,6 +29,7 @@ from topheavy.bodies.structures import (
     checked_mass_ratio,
     rocking_block,
     solitary_size,
+    weights,
 )
 
 
@@ -56,14 +57,14 @@ class RigidBody:
     @property
     def centre_height(self) -> float:
         """H, m: of the centre of gravity above the ground."""
-        h, cap = self.column.half_height, _cap_mass_share(self.mass_ratio)
+        h, cap = self.column.half_height, weights(self.mass_ratio)[1]
         return (1.0 - cap) * h + cap * (2.0 * h + self._cap[2] / 2.0)
 
     @property
     def inertia(self) -> float:
         """I/M, m²: moment of inertia about the edge over the mass."""
         b, h, (axis, width, depth) = self.column.half_width, self.column.half_height, self._cap
-        cap, base = _cap_mass_share(self.mass_ratio), self.half_base**2
+        cap, base = weights(self.mass_ratio)[1], self.half_base**2
         of_columns = (b**2 + h**2) / 3.0 + base + axis**2 + h**2
         of_cap = (width**2 + depth**2) / 12.0 + base + (2.0 * h + depth / 2.0) ** 2
         return (1.0 - cap) * of_columns + cap * of_cap
@@ -190,8 +191,3 @@ class MonolithicPortal(RigidBody):
     def _cap(self) -> tuple[float, float, float]:
         width = self.span + 2.0 * (self.column.half_width + self.overhang)
         return self.span / 2.0, width, self.cap_depth
-
-
-def _cap_mass_share(mass_ratio: float) -> float:
-    """Return γ/(1 + γ), the cap's share of the mass."""
-    return 1.0 if mass_ratio == math.inf else mass_ratio / (1.0 + mass_ratio)

@@ -320,6 +320,13 @@ def size_ratio(mass_ratio: float) -> float:
     return 1.5 if mass_ratio == math.inf else 1.0 + 0.5 * mass_ratio / (0.5 + mass_ratio)
 
 
+def weights(mass_ratio: float) -> tuple[float, float]:
+    """Return the shares of one column and of the cap beam in the weight of the frame."""
+    if mass_ratio == math.inf:
+        return 0.0, 1.0
+    return 0.5 / (1.0 + mass_ratio), mass_ratio / (1.0 + mass_ratio)
+
+
 def solitary_size(frequency_parameter: float) -> float:
     """Return R = 3g/4p² (m) of the solitary rectangular column with this p (rad/s), of Eq. (3)."""
     return 3.0 * STANDARD_GRAVITY / (4.0 * frequency_parameter**2)
