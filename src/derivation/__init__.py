@@ -36,13 +36,9 @@ class Theorem(NamedTuple):
 def theorems() -> list[Theorem]:
     """Prove all theorems; the first paragraph of a proof's docstring states it."""
     return [
-        Theorem(about, name, _first_paragraph(inspect.getdoc(proof) or ""), proof())
+        Theorem(about, name, " ".join(str(proof.__doc__).split("\n\n")[0].split()), proof())
         for module, about in MODULES.items()
         for name, proof in vars(module).items()
         if inspect.isfunction(proof) and proof.__module__ == module.__name__
         if str(inspect.signature(proof)) == "() -> 'bool'"
     ]
-
-
-def _first_paragraph(text: str) -> str:
-    return " ".join(text.partition("\n\n")[0].split())

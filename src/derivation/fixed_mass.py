@@ -45,9 +45,6 @@ from derivation.notation import (
 )
 
 I_b = sp.Symbol("I_b", positive=True)
-CONCENTRATED = {half_depth: 0, I_b: 0}
-"""The mass at a point, the top of the column's axis."""
-
 _CAP = gamma * m_c
 
 
@@ -85,28 +82,21 @@ def fixed_tangent(side: Side = NEGATIVE) -> sp.Expr:
     return sp.factor(-side.sign * uplift_acceleration(fixed_motion(side), side) / g)
 
 
-def _inertia() -> sp.Expr:
-    """I about the corner: the column's, and by Steiner the cap's."""
-    height = 2 * R * sp.cos(alpha) + half_depth
-    arm = (R * sp.sin(alpha)) ** 2 + height**2
-    return sp.Rational(4, 3) * m_c * R**2 + I_b + _CAP * arm
-
-
 def fixed_mass_rocks_as_one_column() -> bool:
     """Column and fixed cap obey θ̈ = −p'² {sin(α' sgn θ − θ) + ü_g/g cos(α' sgn θ − θ)}, Eq. (3).
 
     Here p'² = M g R'/I and tan α' = B/H, with the centre of gravity at R' sin α' = B beside the
     corner and R' cos α' = H above it, and I about the corner.
     """
-    mass = m_c + _CAP
-    beside = R * sp.sin(alpha)
-    above = (m_c * R * sp.cos(alpha) + _CAP * (2 * R * sp.cos(alpha) + half_depth)) / mass
+    mass, beside, height = m_c + _CAP, R * sp.sin(alpha), 2 * R * sp.cos(alpha) + half_depth
+    above = (m_c * R * sp.cos(alpha) + _CAP * height) / mass
+    inertia = sp.Rational(4, 3) * m_c * R**2 + I_b + _CAP * (beside**2 + height**2)  # by Steiner
     identities = [is_identically_zero(fixed_tangent() - beside / above, NEGATIVE)]
     for side in SIDES:
         cos, sin = sp.cos(side.rotation), side.sign * sp.sin(side.rotation)
         # R' sin(α' − |θ|) and R' cos(α' − |θ|)
         across, along = beside * cos - above * sin, above * cos + beside * sin
-        eq3 = -mass / _inertia() * (g * side.sign * across + ground_acceleration * along)
+        eq3 = -mass / inertia * (g * side.sign * across + ground_acceleration * along)
         identities.append(is_identically_zero(fixed_motion(side) - eq3, side))
     return all(identities)
 
@@ -116,7 +106,7 @@ def fixed_mass_lowers_the_uplift_acceleration() -> bool:
 
     The bound is reached by a mass concentrated at the top; as γ → ∞ it tends to (tan α)/2.
     """
-    concentrated = fixed_tangent().subs(CONCENTRATED)
+    concentrated = fixed_tangent().subs({half_depth: 0, I_b: 0})  # at the top of the axis
     stated = sp.tan(alpha) * (1 + gamma) / (1 + 2 * gamma)
     sine, cosine = sp.symbols("s c", positive=True)
     plain = fixed_tangent().subs({sp.sin(alpha): sine, sp.cos(alpha): cosine})

@@ -23,20 +23,16 @@ half_depth = sp.Symbol("d", positive=True)
 
 @dataclass(frozen=True)
 class Side:
-    """One of the two sides to which the column or frame rocks.
-
-    Parameters
-    ----------
-    sign
-        sgn θ: −1 leans to the left, on the left corners; +1 to the right.
-    """
+    """One of the two sides to which the column or frame rocks."""
 
     sign: int
+    """sgn θ: −1 leans to the left, on the left corners; +1 to the right."""
 
     @property
     def rotation(self) -> sp.Symbol:
         """The rotation θ, clockwise positive, which knows its sign."""
-        return sp.Symbol("theta", negative=True) if self.sign < 0 else THETA_POSITIVE
+        sign = {"negative": True} if self.sign < 0 else {"positive": True}
+        return sp.Symbol("theta", **sign)
 
     @property
     def label(self) -> str:
@@ -68,7 +64,6 @@ class Side:
         return sum(terms[1:], start=terms[0])
 
 
-THETA_POSITIVE = sp.Symbol("theta", positive=True)
 NEGATIVE = Side(-1)
 POSITIVE = Side(+1)
 SIDES = (NEGATIVE, POSITIVE)
@@ -106,21 +101,10 @@ _SYMBOLS = {
 def read(equation: str, side: Side) -> list[sp.Expr]:
     """Read an equation written as on paper into the members between its equality signs.
 
-    A double sign is resolved for the side: the top sign is for θ < 0. Nothing is interpreted
-    beyond that: a letter unknown to this module becomes a symbol of its own, and a product binds
-    as tightly as a quotient.
-
-    Parameters
-    ----------
-    equation
-        For example ``"u̇ = 2R cos(α ± θ) θ̇"``.
-    side
-        The side on which the equation is meant to hold.
-
-    Returns
-    -------
-    list of sympy expressions
-        The members of the equation, two or more.
+    For example ``"u̇ = 2R cos(α ± θ) θ̇"``. A double sign is resolved for the side on which the
+    equation is meant to hold: the top sign is for θ < 0. Nothing is interpreted beyond that: a
+    letter unknown to this module becomes a symbol of its own, and a product binds as tightly as a
+    quotient.
     """
     top, bottom = ("+", "-") if side.sign < 0 else ("-", "+")
     equation = equation.replace("±", top).replace("∓", bottom)

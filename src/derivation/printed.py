@@ -343,30 +343,17 @@ UPLIFT = Statement("text_uplift", "ü_g > g tan(α)", column)
 
 @dataclass(frozen=True)
 class PrintedCheck:
-    """Whether one printed equation follows from its premises, and what is meant if not.
-
-    Parameters
-    ----------
-    id
-        "eq9_positive", "eq23", "text_p_hat".
-    equation
-        The paper's number, None in the running text.
-    part
-        "θ < 0", "θ > 0", or "" where it holds for both at once.
-    printed, meant
-        As printed; as meant, "" if that is the same.
-    follows, meant_follows
-        What the algebra says of either.
-    kind, remark
-        Of which kind the discrepancy is, and what is wrong; "" if nothing is.
-    """
+    """Whether one printed equation follows from its premises, and what is meant if not."""
 
     id: str
+    """For instance eq9_positive, eq23, text_p_hat."""
     equation: int | None
+    """The paper's number, None in the running text."""
     part: str
+    """θ < 0, θ > 0, or nothing where it holds for both at once."""
     printed: str
     follows: bool
-    meant: str = ""
+    meant: str = ""  # empty, as all below, where nothing is wrong
     meant_follows: bool | None = None
     kind: str = ""
     remark: str = ""
