@@ -226,11 +226,11 @@ rule expected:
     log:
         "results/logs/expected.log",
     params:
-        code=code("src/documents/expect.py", rule="expected"),
+        code=code("src/documents/judge.py", rule="expected"),
     message:
         "Comparing verdicts with the expected ones"
     script:
-        "../src/documents/expect.py"
+        "../src/documents/judge.py"
 
 
 # On a cluster, only the shards are worth a job.

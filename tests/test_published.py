@@ -7,7 +7,7 @@ import pytest
 
 from documents.check import REFERENCE
 from documents.compare import compare, departures
-from documents.expect import faults
+from documents.judge import faults
 from tests.cases import ROOT, published
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")

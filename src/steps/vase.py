@@ -18,7 +18,6 @@ from steps.shared import plain
 from steps.shared.cases import lowest
 from steps.shared.poses import bodies, lying, structures
 from topheavy import (
-    STANDARD_GRAVITY,
     Column,
     FixedMassColumn,
     LowestOverturning,
@@ -141,7 +140,6 @@ def of_one_period(column: Column, settings: dict) -> list[dict]:
                 "slenderness_deg": math.degrees(block.slenderness),
                 "frequency_parameter": block.frequency_parameter,
                 "restitution": block.restitution,
-                "equivalent_size": 3.0 * STANDARD_GRAVITY / (4.0 * block.frequency_parameter**2),
                 "uplift_acceleration": block.uplift_acceleration,
                 "shape": shape,
                 "minimum_overturning": interval.factor,
