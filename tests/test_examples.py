@@ -4,7 +4,6 @@ import doctest
 import importlib
 import inspect
 import pkgutil
-import re
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -50,9 +49,3 @@ def test_task_of_an_engineer_takes_at_most_ten_lines(task):
 def test_names_are_one_list(package):
     assert dir(package) == sorted(package.__all__)
     assert all(hasattr(package, name) for name in package.__all__)
-
-
-@pytest.mark.parametrize("name", PUBLIC)
-def test_constants_that_a_docstring_names_can_be_reached(name):
-    constants = re.findall(r"`(?:th\.)?([A-Z_]{3,})`", inspect.getdoc(getattr(th, name)))
-    assert set(constants) <= set(th.__all__)

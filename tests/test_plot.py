@@ -39,13 +39,6 @@ def test_map_has_the_peak_at_its_frequency_and_amplitude():
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("Angular frequency (rad/s)", "Amplitude (g)")
 
 
-def test_map_of_a_record_has_its_own_axes():
-    shaking = Record(0.1, [0.0, 0.3, -0.2, 0.1])
-    axes = plot.map(topheavy.overturning_map(COLUMN, shaking, [1, 2], [0.1, 0.2]))
-    assert axes.get_xlabel() == "Size R of the column (m)"
-    assert axes.get_ylabel() == "Peak ground acceleration (g)"
-
-
 def test_fragility_has_points_in_bands_of_exact_intervals():
     motions = [Record(0.3, [0.0, a, -a, b]) for a, b in ((0.3, 0), (0.6, 0.3), (1, 0.6), (1.5, 1))]
     found = topheavy.fragility({"one": COLUMN}, motions, [0.5, 1.0, 2.0], measure="PGA")
@@ -159,11 +152,6 @@ def test_structure_stands_on_the_ground_and_leans_as_it_rocks(shown, bodies, rot
     assert np.sign(lean.round(9)) == np.sign(rotation)
 
 
-def test_block_has_no_bodies():
-    with pytest.raises(ValueError, match="expected a Column, FixedMassColumn, RockingFrame or"):
-        plot.structure(COLUMN.block())
-
-
 def test_without_matplotlib_the_extra_is_named():
     code = (
         "import sys; sys.modules['matplotlib'] = None; import topheavy as th; "
@@ -171,12 +159,6 @@ def test_without_matplotlib_the_extra_is_named():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert 'pip install "topheavy[plot]"' in done.stderr
-
-
-def test_no_two_meanings_have_one_colour():
-    named = ("OVERTURNS", "SURVIVES", "PREVENTED", "CAUSED", "MODEL", "FIXED")
-    colours = [getattr(palette, name) for name in named]
-    assert len(set(colours)) == len(colours)
 
 
 @pytest.mark.parametrize("name", ["OVERTURNS", "SURVIVES", "PREVENTED", "CAUSED"])

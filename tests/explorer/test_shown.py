@@ -50,20 +50,6 @@ def test_outcomes_are_shown_before_the_film(browser):
     assert browser.do(OUTCOMES) == 3 * [["overturns", "overturns", "overturns"]]
 
 
-@pytest.mark.sampled(1)
-@pytest.mark.parametrize("number", range(6))
-def test_case_is_played_without_a_fault(browser, number):
-    browser.open(moves=True)
-    browser.do("document.querySelectorAll('#cases button')[{0}].click()", number)
-    browser.settle()
-    browser.wait("isPlaying && time > 0")
-    has_vase = browser.do("DATA.cases[{0}].state.vase !== 'hidden'", number)
-    assert browser.do("document.getElementById('strip1').checkVisibility()") is has_vase
-    assert (browser.do("scene.groups[1].getAttribute('visibility')") != "hidden") is has_vase
-    assert ("vase" in browser.do("document.getElementById('verdict').textContent")) is has_vase
-    assert browser.requests == browser.errors == []
-
-
 # The map -----------------------------------------------------------------------------------------
 
 CELLS = """(() => {
