@@ -73,12 +73,6 @@ def outlines(
     -------
     dict of ndarray, shape (5, 2)
         m, closed. The origin is on the ground, in the middle of the structure at rest.
-
-    Raises
-    ------
-    ValueError
-        For another structure, which has no dimensions, and for a frame of more than two columns,
-        whose spans are not known.
     """
     if isinstance(structure, Column):
         return {"column": column_outline(structure, rotation)}

@@ -189,19 +189,10 @@ class RockingFrame:
     def of_masses(
         cls, column: Column, cap_mass: float, column_mass: float, columns: int = 2
     ) -> RockingFrame:
-        """Return the frame of a cap beam on two or more equal columns, by its masses.
+        """Return the frame by m_b of its cap beam and m_c of one column, in the same unit.
 
         The number N of columns enters by γ = m_b/(N m_c) alone; two give the paper's m_b/2m_c.
         src/derivation/mechanics.py of the repository derives the motion and √r for every N.
-
-        Parameters
-        ----------
-        column : Column
-            Each of them.
-        cap_mass, column_mass : float
-            m_b of the cap beam and m_c of one column, in the same unit.
-        columns : int
-            N.
         """
         number = checks.whole("columns", columns, 2, MAX_COLUMNS)
         cap = checks.not_negative("cap_mass", cap_mass)

@@ -151,11 +151,6 @@ class Pulse(Excitation):
         return self.half_periods * math.pi / self.angular_frequency
 
     @property
-    def wave_number(self) -> int:
-        """Place of its wave in `shapes.WAVES`."""
-        return list(WAVES).index(SHAPES[self.shape].wave)
-
-    @property
     def peak_acceleration(self) -> float:
         """|amplitude|, g."""
         return abs(float(self.amplitude))
@@ -168,7 +163,8 @@ class Pulse(Excitation):
         """Return the ground acceleration in g at an array of times in s; zero outside the pulse."""
         inside = (time >= 0.0) & (time <= self.duration)
         phase = self.angular_frequency * np.where(inside, time, 0.0)
-        return np.where(inside, self.amplitude * unit_wave(self.wave_number, phase)[0], 0.0)
+        wave = list(WAVES).index(SHAPES[self.shape].wave)
+        return np.where(inside, self.amplitude * unit_wave(wave, phase)[0], 0.0)
 
 
 def _checked_cycles(cycles: int, shape: PulseShape) -> int:

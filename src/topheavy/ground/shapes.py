@@ -62,11 +62,6 @@ class Shape(NamedTuple):
     """Duration of a cycle over π/ω."""
     repeats: bool = False
 
-    @property
-    def is_elementary(self) -> bool:
-        """Whether the linearised motion under it has a solution in elementary functions."""
-        return WAVES[self.wave].drag == 0.0
-
 
 FiniteShape = Literal[
     "one-sine", "one-cosine", "half-sine", "constant", "ricker-symmetric", "ricker-antisymmetric"
@@ -89,8 +84,8 @@ SHAPES: dict[PulseShape, Shape] = {
 PULSE_SHAPES: tuple[PulseShape, ...] = tuple(SHAPES)
 FINITE_SHAPES: tuple[FiniteShape, ...] = get_args(FiniteShape)
 
-ELEMENTARY = tuple(name for name, shape in SHAPES.items() if shape.is_elementary)
-"""Shapes with a solution of the linearised equation in elementary functions."""
+ELEMENTARY = tuple(name for name, shape in SHAPES.items() if not WAVES[shape.wave].drag)
+"""Shapes under which the linearised equation has a solution in elementary functions."""
 
 MAX_CYCLES = 100
 """Of a pulse: a phase of a certificate (`proven`) goes up to 1000."""

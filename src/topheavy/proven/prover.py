@@ -101,7 +101,8 @@ def certified(
     Raises
     ------
     ValueError
-        As `problem_of` does, and for dimensions outside the range of a certificate.
+        For a ground motion that is no pulse or does not end, a factor that is not finite or does
+        not ascend, a structure whose √r is negative, and dimensions beyond those of a certificate.
     """
     problem = problem_of(structure, pulse, factor)
     low, high = map(float, problem["factor"])
@@ -159,14 +160,7 @@ def survives_below(
 def problem_of(
     structure: Structure, pulse: Pulse, factor: float | tuple[float, float]
 ) -> dict[str, Any]:
-    """Return the entries of a certificate that say what it is about.
-
-    Raises
-    ------
-    ValueError
-        For a ground motion that is no pulse or does not end, a factor that is not finite or does
-        not ascend, and a structure whose √r is negative.
-    """
+    """Return the entries of a certificate that say what it is about; see `certified`."""
     if not isinstance(pulse, Pulse):
         raise ValueError(f"pulse is {checks.short_repr(pulse)}; expected a Pulse")
     checked_excitation(pulse, ends=True)
