@@ -59,25 +59,24 @@ def solve(spectra: Sequence[Sequence[Line]], settings: Mapping[str, Any]) -> pd.
     amplitudes, again = settings["amplitudes"], settings["again"]
     ends = (amplitudes["lowest"], amplitudes["highest"])
     lines = [one for spectrum in spectra for one in spectrum]
-    found: list[list[FactorInterval]] = []
-    for begin in range(0, len(lines), TOGETHER):
-        some = lines[begin : begin + TOGETHER]
-        found += search_finely(some, ends, amplitudes["resolution"], settings)
-        print(f"{len(found)} of {len(lines)} lines", flush=True)
+
+    def searched(places: Sequence[int], resolution: float) -> list[list[FactorInterval]]:
+        intervals: list[list[FactorInterval]] = []
+        for begin in range(0, len(places), TOGETHER):
+            some = [lines[at] for at in places[begin : begin + TOGETHER]]
+            intervals += search_finely(some, ends, resolution, settings)
+            print(f"{len(intervals)} of {len(places)} lines", flush=True)
+        return intervals
 
     def search_again(places: Sequence[int]) -> list[int]:
         """Return at which places this finds other intervals, and replace them."""
-        different = []
-        for begin in range(0, len(places), TOGETHER):
-            some = places[begin : begin + TOGETHER]
-            lines_again = [lines[at] for at in some]
-            by_place = search_finely(lines_again, ends, again["resolution"], settings)
-            for at, intervals in zip(some, by_place, strict=True):
-                if not same(intervals, found[at]):
-                    different.append(at)
-                    found[at] = intervals
-        return different
+        pairs = zip(places, searched(places, again["resolution"]), strict=True)
+        other = {at: intervals for at, intervals in pairs if not same(intervals, found[at])}
+        for at, intervals in other.items():
+            found[at] = intervals
+        return [*other]
 
+    found = searched(range(len(lines)), amplitudes["resolution"])
     ends_in_lines = accumulate(map(len, spectra))
     places = [range(end - len(one), end) for one, end in zip(spectra, ends_in_lines, strict=True)]
     sample = [at for some in places for at in some[:: again["every"]]]
