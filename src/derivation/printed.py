@@ -127,31 +127,17 @@ def harmonic_base(side: Side) -> Values:
 
 @dataclass(frozen=True)
 class Statement:
-    """An equation as it is printed, and where it has to hold.
-
-    Parameters
-    ----------
-    name
-        "eq9", or "text_…" for a formula in the running text.
-    printed
-        The equation, as `derivation.notation.read` takes it.
-    premises
-        The premises from which it has to follow.
-    sides
-        The sides of the motion that it is stated for.
-    split
-        Whether its two sides are two equations, by a double sign.
-    meant, kind, remark
-        If it does not follow: the corrected form, the kind of the discrepancy (a sign, a bracket or
-        a radical), and what is wrong in a sentence.
-    """
+    """An equation as it is printed, and where it has to hold."""
 
     name: str
+    """The paper's number as "eq9", or "text_…" for a formula in the running text."""
     printed: str
     premises: Premises
     sides: tuple[Side, ...] = SIDES
     split: bool = False
+    """Whether its two sides are two equations, by a double sign."""
     meant: str = ""
+    """If it does not follow: the corrected form, the kind of discrepancy, and what is wrong."""
     kind: str = ""
     remark: str = ""
 
