@@ -45,7 +45,7 @@ def test_task_of_an_engineer_takes_at_most_ten_lines(task):
     assert "plot" in lines[-1]
 
 
-@pytest.mark.parametrize("package", [th, th.plot, th.proven])
+@pytest.mark.parametrize("package", [th, th.plot])
 def test_names_are_one_list(package):
     assert dir(package) == sorted(package.__all__)
     assert all(hasattr(package, name) for name in package.__all__)
