@@ -248,6 +248,7 @@ def test_anyone_can_check_a_file_of_certificates(tmp_path):
         ("[" * 90_000, "no JSON"),
         (" " * 200_000, "it is longer than 100000 characters"),
     ],
+    ids=["outcome", "NaN", "twice", "nested", "long"],
 )
 def test_file_with_a_wrong_line_is_refused(tmp_path, line, reason):
     path = tmp_path / "wrong.jsonl"
