@@ -175,6 +175,11 @@ def forces_at(
     """
     _check_contacts(frame, cap)
     motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
+    return _forces_in(frame, cap, motion)
+
+
+def _forces_in(frame: RockingFrame, cap: Cap, motion: _State) -> ContactForces:
+    """Return the forces of `forces_at` in states of the motion."""
     size, p_hat = frame.column.size, frame.frequency_parameter
     column_weight, beam_weight = weights(frame.mass_ratio)
     column = _inertia_force(motion, size, p_hat, column_weight)  # Eqs. (10), (11)
@@ -448,8 +453,9 @@ def frame_forces(
     The parameters are those of `forces_at`. At rest, base shear and overturning moment follow
     from the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
     """
-    contacts = forces_at(frame, cap, rotation, velocity, ground_acceleration)
+    _check_contacts(frame, cap)
     motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
+    contacts = _forces_in(frame, cap, motion)
     rests, half_height = np.isnan(motion.side), frame.column.half_height
     corner = motion.side * frame.column.half_width
     horizontal, vertical = contacts.horizontal[:2], contacts.vertical[:2]
