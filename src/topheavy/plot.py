@@ -22,8 +22,16 @@ from topheavy.risk.fragility import Fragility
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["capacity", "forces", "fragility", "history", "map"]
-__all__ += ["rotations", "spectrum", "structure"]
+__all__ = [
+    "capacity",
+    "forces",
+    "fragility",
+    "history",
+    "map",
+    "rotations",
+    "spectrum",
+    "structure",
+]
 
 
 def __dir__() -> list[str]:

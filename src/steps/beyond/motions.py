@@ -35,9 +35,7 @@ def compute(settings, structures, shards):
     column, names = columns[settings["structure"]], sets(settings)
     check_sample(sampled(shards, settings, column))
     tables = {name: [] for name in ("probabilities", "gains", "pairs", "fragility", "rotations")}
-    frames_only = slice(
-        1 + len(settings["mass_ratios"])
-    )  # column and frames, without the fixed mass
+    frames_only = slice(1 + len(settings["mass_ratios"]))  # the column's, without the fixed mass
     for model in models(settings):
         results = outcomes(shards, model)
         kept = (results != FREE_FALL).all(axis=(1, 2))
