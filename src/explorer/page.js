@@ -272,9 +272,9 @@ function take(read) {
   told(doubt && `${file} was read, but ${doubt}`);
 }
 
-/** Take the state from the address. */
-function readAddress() {
-  const { state: next, faults } = decode(location.hash);
+/** Take the state from an address. */
+function readAddress(hash) {
+  const { state: next, faults } = decode(hash);
   if (next.shape === "record" && !files.has(next.record)) {
     awaited = { record: next.record, x: next.x };
     faults.shape = `The address: the record “${next.record}” is not in this page; open or drop its file`;
@@ -303,7 +303,10 @@ byId("copy").addEventListener("click", () => {
   settle();
   navigator.clipboard.writeText(location.href).then(() => (byId("copy").textContent = "Copied"), () => prompt("The address of this case", location.href));
 });
-addEventListener("hashchange", () => location.hash.slice(1) !== encode(state) && readAddress());
+addEventListener("hashchange", (event) => {
+  const { hash } = new URL(event.newURL); // location may be that of a state that settles now
+  if (hash.slice(1) !== encode(state)) readAddress(hash);
+});
 addEventListener("resize", () => {
   scene.measure();
   if (!isUpdating) requestAnimationFrame(redraw);
@@ -312,4 +315,4 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   spectrumChart.chart.redraw(false, false);
   strips.forEach((strip) => strip.chart.redraw());
 });
-readAddress();
+readAddress(location.hash);
