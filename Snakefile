@@ -38,6 +38,10 @@ BEGUN = time.time()
 os.environ["RUN"] = str(os.getpid())  # a step whose run has ended writes nothing
 
 
+for path in ["config/config.yaml", *workflow.configfiles]:
+    read_yaml(path)  # its mistakes have a line, and it refuses a doubled key
+
+
 configfile: "config/config.yaml"
 
 
@@ -123,8 +127,6 @@ def made(ending=""):
     return [path for path in paths if path.endswith(ending) and "{" not in path]
 
 
-for path in ["config/config.yaml", *workflow.configfiles]:
-    read_yaml(path)  # refuses a doubled key
 PAPER = read_config(
     " over ".join(map(os.path.relpath, workflow.configfiles)), Paper, config
 )

@@ -275,7 +275,7 @@ def test_config_with_its_keys_is_read(tmp_path):
         ("3.0,", "0.05,", "inner.ends.0 is 0.05; input should be greater than or equal to 1"),
         ("structure: temple", "structure: tmeple", "inner.structure is 'tmeple'; expected a name"),
         ("scale: 1.3", "scale: 1.3\nscale: 1.4", "config.yaml:3: the key 'scale' is there twice"),
-        ("scale: 1.3", "scale:\t1.3:", "config.yaml: "),
+        ("scale: 1.3", "scale:\t1.3:", "config.yaml:2: found character "),
     ],
 )
 def test_mistake_in_a_config_is_named_with_file_and_value(tmp_path, old, new, message):

@@ -31,7 +31,7 @@ PLAYS = 3
 PLACES = {"column": 0.0, "fixed mass": 10.2, "frame": 22.6}  # m: the middle of each
 NAMES = {
     "column": "Column",
-    "fixed mass": "Vase: mass fixed to it",
+    "fixed mass": "Vase: mass fixed on top",
     "frame": "Frame: mass carried freely",
 }
 COLOURS = {"overturns": (P.OVERTURNED, P.OVERTURNS), "survives": (P.ROCKS, P.SURVIVES)}

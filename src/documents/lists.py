@@ -140,7 +140,7 @@ def numbers(run: Run, to: Docs) -> str:
         text += [
             f"## {rule}\n",
             f"{to.file(about['script'])} draws these from {', '.join(tables)}. Again: "
-            f"`uv run snakemake --cores 2 --force results/findings/{rule}.json`\n",
+            f"`snakemake --cores 2 --force results/findings/{rule}.json`\n",
         ]
         for name, result in results.items():
             place = to.line(about["script"], name)

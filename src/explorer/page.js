@@ -4,7 +4,7 @@
 const DATA = JSON.parse(byId("data").textContent);
 const ENGINE = URL.createObjectURL(new Blob([...document.querySelectorAll("script.engine")].map((script) => script.textContent), { type: "text/javascript" }));
 const CASES = DATA.cases.map((each) => encode({ ...DEFAULTS, ...each.state }));
-const TITLES = { column: "Column", vase: "Vase: mass fixed to it", frame: "Frame: mass carried freely", portal: "Portal: cap beam fixed to both" };
+const TITLES = { column: "Column", vase: "Vase: mass fixed on top", frame: "Frame: mass carried freely", portal: "Portal: cap beam fixed to both" };
 const NARROW = matchMedia("(max-width: 700px)"), CALM = matchMedia("(prefers-reduced-motion: reduce)");
 
 const files = new Map(); // records by name; `opened` numbers those that were opened, so that a file of the same name is another

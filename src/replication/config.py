@@ -42,7 +42,11 @@ def read_yaml(path: str | Path) -> Any:
     except FileNotFoundError:
         raise SystemExit(f"there is no file {path}") from None
     except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise SystemExit(f"{path}: {' '.join(str(error).split())}") from None
+        mark, problem = getattr(error, "problem_mark", None), getattr(error, "problem", error)
+        raise SystemExit(
+            f"{path}{f':{mark.line + 1}' if mark else ''}: {problem}; expected lines `key: value`, "
+            "indented by blanks, with each bracket and quote closed: mend this line or one above"
+        ) from None
 
 
 def read_config(path: str, model: type[BaseModel], content: Any = None) -> dict[str, Any]:
