@@ -104,7 +104,8 @@ def main() -> int:
     parser.add_argument("-j", type=int, default=1, dest="jobs", help="how many at a time")
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
-    entries = {entry["name"]: entry for entry in yaml.safe_load(FAULTS.read_text(encoding="utf-8"))}
+    groups = yaml.safe_load(FAULTS.read_text(encoding="utf-8"))
+    entries = {one["name"]: group | one for group in groups for one in group.get("faults", [group])}
     if unknown := {*options.names} - {*entries}:
         sys.exit(f"{FAULTS} has no {', '.join(sorted(unknown))}")
     chosen = [entries[name] for name in options.names or entries]
