@@ -19,24 +19,7 @@ from derivation.mechanics import (
     restitution_of_columns,
     size_ratio,
 )
-from derivation.notation import (
-    POSITIVE,
-    SIDES,
-    R,
-    Side,
-    alpha,
-    b,
-    g,
-    gamma,
-    ground_acceleration,
-    h,
-    half_depth,
-    is_identically_zero,
-    m_b,
-    m_c,
-    velocity,
-    vertical_acceleration,
-)
+from derivation.notation import *
 
 _k = sp.Symbol("k", positive=True)
 
