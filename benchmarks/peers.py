@@ -1,11 +1,17 @@
-"""Time a history and a map by three solvers at equal error: python benchmarks/peers.py
+"""Time a history and a map by five solvers at equal error: python benchmarks/peers.py
 
-A column rocks under one-sine pulses; SciPy and heyoka compute a sample of the map. Each solver has
-the largest tolerance at which the error of all peaks is below ERROR. Dependency group: `bench`.
+A column rocks under one-sine pulses; SciPy, heyoka and MuJoCo compute a sample of the map. Each has
+the largest tolerance at which the error of all peaks is below ERROR; MuJoCo, whose contacts are
+compliant, has one time step. Dependency group: `bench`; C++ is left out where there is no compiler.
 """
 
+import ctypes
 import math
+import shutil
+import subprocess
+import tempfile
 from functools import partial
+from pathlib import Path
 from time import process_time
 from timeit import repeat
 
@@ -14,7 +20,8 @@ import numpy as np
 from oracle import AT_REST, Flights, ended
 from scipy.integrate import solve_ivp
 
-from topheavy import Column, Pulse, RockingBlock, judge
+from steps.beyond.rigid_bodies import OVERTURNED, WAIT, Bodies, motion
+from topheavy import Cap, Column, Pulse, RockingBlock, judge
 from topheavy.kernel.forcing import pulse_waveform
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
@@ -25,6 +32,7 @@ ALPHA = BLOCK.slenderness
 FREQUENCIES, AMPLITUDES = np.linspace(1.0, 8.0, 64), np.linspace(1.05, 6.0, 64)  # over p, tan α
 N_SAMPLE, SEED = 40, 2014
 TOLERANCES = 10.0 ** -np.arange(5.0, 15.5, 0.5)
+ENGINE = Bodies(Column(0.5, 3.0), 0.5, 0.0, Cap(5.0, 1.0), 4e-4, in_row=1, is_planar=True)
 
 
 class Scipy:
@@ -99,6 +107,28 @@ def ours(tolerance, omega, amplitude):
     return judge(BLOCK, pulse, tolerance=tolerance).peak_rotation / ALPHA
 
 
+def engine_peak(omega, amplitude):
+    """Return the peak over α by MuJoCo; NaN if the column overturns."""
+    p, highest = ENGINE.column.frequency_parameter, 1.0
+    pulse = Pulse("one-sine", amplitude * ENGINE.column.uplift_acceleration, omega * p)
+    for _, rotation in motion(ENGINE, pulse.excitation, pulse.duration + WAIT / (4.0 * p)):
+        highest = min(highest, rotation[0, 2, 2])
+        if highest < math.cos(OVERTURNED):
+            return math.nan
+    return math.acos(highest) / ALPHA
+
+
+def compiled(folder):
+    """Return the functions of peer.cpp, for one pulse and for many."""
+    path, source = str(Path(folder, "peer.so")), str(Path(__file__).with_name("peer.cpp"))
+    fast = "-O3 -march=native -ffast-math -fno-finite-math-only -shared -fPIC".split()
+    subprocess.run(["c++", *fast, source, "-o", path], check=True)
+    library, real, many = ctypes.CDLL(path), ctypes.c_double, np.ctypeslib.ndpointer(float)
+    library.peak.argtypes, library.peak.restype = [real] * 5, real
+    library.peaks.argtypes = [real, real, many, many, ctypes.c_int, real]
+    return library.peak, library.peaks
+
+
 def main():
     random = np.random.default_rng(SEED)
     sample = random.choice(FREQUENCIES, N_SAMPLE), random.choice(AMPLITUDES, N_SAMPLE)
@@ -118,22 +148,32 @@ def main():
         "this solver": lambda tolerance: partial(ours, tolerance),
         "SciPy's solve_ivp": lambda tolerance: partial(peak, Scipy(tolerance)),
         "heyoka": lambda tolerance: partial(peak, heyoka(tolerance)),
+        "MuJoCo": lambda tolerance: engine_peak,
     }
+    whole = {"this solver": lambda t: outcomes_of(*grid, tolerance=t, threads=1)}
+    if shutil.which("c++"):
+        with tempfile.TemporaryDirectory() as folder:
+            one_by, many_by = compiled(folder)
+        block = ALPHA, BLOCK.restitution
+        solvers["scalar C++"] = lambda t: lambda *cell: one_by(*block, *cell, t)
+        whole["scalar C++"] = lambda t: many_by(*block, w, a, w.size, t)
     least = None
     for name, solver in solvers.items():
-        for tolerance in TOLERANCES:
+        for tolerance in TOLERANCES if name != "MuJoCo" else TOLERANCES[:1]:
             solve = solver(tolerance)
             apart = np.abs([solve(*cell) for cell in sample] - reference)
             if np.array_equal(np.isnan(apart), np.isnan(reference)) and np.nanmax(apart) < ERROR:
                 break
         one = partial(solve, *history), 1
         many = partial(lambda solve: [solve(*cell) for cell in sample], solve), N_SAMPLE
-        if least is None:
-            many = partial(outcomes_of, *grid, tolerance=tolerance, threads=1), w.size
+        if name in whole:
+            many = partial(whole[name], tolerance), w.size
         times = np.array([min(repeat(f, timer=process_time, number=1)) / n for f, n in (one, many)])
         least = times if least is None else least
         print(
-            f"{name}: {np.nanmax(apart):.0e} α off; history, cell: {1e6 * times} µs,", times / least
+            f"{name}: {np.nanmax(apart):.0e} α off, {np.isnan(apart).sum()} overturn; "
+            f"history, cell: {1e6 * times} µs,",
+            times / least,
         )
 
 
