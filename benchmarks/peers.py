@@ -121,7 +121,7 @@ def engine_peak(omega, amplitude):
 def compiled(folder):
     """Return the functions of peer.cpp, for one pulse and for many."""
     path, source = str(Path(folder, "peer.so")), str(Path(__file__).with_name("peer.cpp"))
-    fast = "-O3 -march=native -ffast-math -fno-finite-math-only -shared -fPIC".split()
+    fast = ["-O3", "-march=native", "-ffast-math", "-fno-finite-math-only", "-shared", "-fPIC"]
     subprocess.run(["c++", *fast, source, "-o", path], check=True)
     library, real, many = ctypes.CDLL(path), ctypes.c_double, np.ctypeslib.ndpointer(float)
     library.peak.argtypes, library.peak.restype = [real] * 5, real
