@@ -121,6 +121,11 @@ def maker(path):
     return ""
 
 
+def shown(path, category="Tables"):
+    """Return an output that `snakemake --report` shows, with a caption from rules/."""
+    return report(path, caption="report.rst", category=category)
+
+
 def made(ending=""):
     """Return the files that rules make so far."""
     paths = sorted(path for name in SCRIPTS for path in outputs(name))

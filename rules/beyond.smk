@@ -33,12 +33,8 @@ rule motions:
     input:
         shards=gather.motions("results/shards/motions_{scatteritem}.npz"),
     output:
-        probabilities=report(
-            "results/tables/motions.csv", caption="report.rst", category="Tables"
-        ),
-        gains=report(
-            "results/tables/motions_gains.csv", caption="report.rst", category="Tables"
-        ),
+        probabilities=shown("results/tables/motions.csv"),
+        gains=shown("results/tables/motions_gains.csv"),
         pairs="results/tables/motions_pairs.csv",
         fragility="results/tables/motions_fragility.csv",
         rotations="results/tables/motions_rotations.csv",
@@ -129,9 +125,7 @@ rule designers:
         "results/tables/uplift.csv",
         "results/tables/friction_by_mass.csv",
     output:
-        table=report(
-            "results/tables/designers.csv", caption="report.rst", category="Tables"
-        ),
+        table=shown("results/tables/designers.csv"),
         findings="results/findings/designers.json",
     log:
         "results/logs/designers.log",

@@ -41,14 +41,7 @@ for part in ["paper", "beyond"]:
             captions="figures/captions.yaml",
             style="figures/style.mplstyle",
         output:
-            [
-                report(
-                    path.replace(".py", ".svg"),
-                    caption="report.rst",
-                    category="Figures",
-                )
-                for path in scripts
-            ],
+            [shown(path.replace(".py", ".svg"), "Figures") for path in scripts],
         log:
             f"results/logs/{part}_figures.log",
         params:
@@ -202,9 +195,7 @@ rule site:
     output:
         site=directory("results/site"),
         numbers="results/numbers.md",
-        verdicts=report(
-            "results/verdicts.md", caption="report.rst", category="Verdicts"
-        ),
+        verdicts=shown("results/verdicts.md", "Verdicts"),
     log:
         "results/logs/site.log",
     params:

@@ -37,9 +37,7 @@ rule parameters:
     input:
         kernel="results/kernel.compiled",
     output:
-        mass_ratio=report(
-            "results/tables/mass_ratio.csv", caption="report.rst", category="Tables"
-        ),
+        mass_ratio=shown("results/tables/mass_ratio.csv"),
         restitution="results/tables/restitution.csv",
         moment_rotation="results/tables/moment_rotation.csv",
         four_structures="results/tables/four_structures.csv",
@@ -61,11 +59,7 @@ rule trilith:
     input:
         kernel="results/kernel.compiled",
     output:
-        trilith_numbers=report(
-            "results/tables/trilith_numbers.csv",
-            caption="report.rst",
-            category="Tables",
-        ),
+        trilith_numbers=shown("results/tables/trilith_numbers.csv"),
         trilith_thresholds="results/tables/trilith_thresholds.csv",
         trilith_starts="results/tables/trilith_starts.csv",
         trilith_histories="results/tables/trilith_histories.csv",
@@ -91,9 +85,7 @@ rule allen:
         kernel="results/kernel.compiled",
     output:
         allen_histories="results/tables/allen_histories.csv",
-        allen_errors=report(
-            "results/tables/allen_errors.csv", caption="report.rst", category="Tables"
-        ),
+        allen_errors=shown("results/tables/allen_errors.csv"),
         allen_maps="results/tables/allen_maps.csv",
         findings="results/findings/allen.json",
     log:
@@ -179,9 +171,7 @@ rule spectra:
     input:
         shards=gather.spectra("results/shards/spectra_{scatteritem}.csv"),
     output:
-        spectra=report(
-            "results/tables/spectra.csv", caption="report.rst", category="Tables"
-        ),
+        spectra=shown("results/tables/spectra.csv"),
         areas="results/tables/spectra_areas.csv",
         histories="results/tables/spectra_histories.csv",
         collapse="results/tables/spectra_collapse.csv",
@@ -204,7 +194,7 @@ rule vase:
     input:
         kernel="results/kernel.compiled",
     output:
-        vase=report("results/tables/vase.csv", caption="report.rst", category="Tables"),
+        vase=shown("results/tables/vase.csv"),
         motions="results/tables/vase_motions.csv",
         poses="results/tables/vase_poses.csv",
         findings="results/findings/vase.json",
