@@ -7,7 +7,9 @@ import pytest
 from scipy.optimize import brentq
 
 import topheavy as th
+from steps import verification
 from steps.shared import plain
+from tests import cases
 from tests.cases import BLOCK, BY_TWO, CLOSE, CLOSED_PULSES, EVERY, NAMES, ON_LINEAR, SIDES
 from topheavy.bodies.free_rocking import (
     barrier,
@@ -27,31 +29,16 @@ def speed(block, level, tilt=0.0):
 
 # ---------------------------------------------------------------------------- printed numbers
 
-ALONG = th.RockingBlock(2.14, 0.25, 0.9, linearised=True)
-PEER = th.RockingBlock(2.0, math.radians(15.0), 0.89952)
-SINE = th.Pulse("one-sine", 0.2, 5.0)  # of amplitude αg
-PRINTED = {  # block, pulse, printed factor on it, tolerance, overturns above it, impacts before
-    "Zhang & Makris 2001, lowest": (LINEAR, SINE, 3.0186, 1e-3, True, None),
-    "Zhang & Makris 2001, one impact": (LINEAR, SINE, 3.06, 2e-2, True, 1),
-    "Zhang & Makris 2001, with impact ends": (LINEAR, SINE, 6.3181, 1e-3, False, 1),
-    "Zhang & Makris 2001, without impact": (LINEAR, SINE, 7.16813, 1e-5, True, 0),
-    "Zhang & Makris 2001, p = 2.14": (ALONG, th.Pulse("one-sine", 1.0, 15.7), 3.230, 1e-3, True, 0),
-    "PEER 2001/07": (PEER, th.Pulse("one-cosine", 1.0, math.pi), 0.315034, 1e-5, True, None),
-    "Makris & Roussos 2000": (
-        *(th.Column(0.2, 0.6).block().linear(), th.Pulse("half-sine", 1.0, 2 * math.pi)),
-        *(0.554586, 1e-4, True, None),
-    ),
-    "Zhou, Du & Han 2019": (
-        *(th.RockingFrame(th.Column(0.75, 3.5), 13.23).block(),),
-        *(th.Pulse("ricker-symmetric", 1.0, 2 * math.pi / 3.14), 0.3134, 2e-4, True, None),
-    ),
-}
+ROWS = {row["quantity"]: row for row in cases.CONFIG["verification"]["published"]}
+IMPACTS = {verification.END: 1, "one_sine_without_impact": 0, "one_sine_dimensional": 0}  # before
 
 
-@pytest.mark.parametrize("row", PRINTED.values(), ids=PRINTED)
-def test_overturning_begins_where_it_was_printed(row):
+@pytest.mark.parametrize("quantity", verification.PRINTED)
+def test_overturning_begins_where_it_was_printed(quantity):
     """By every solver; and the kernel's own boundary is the plain solver's to 1e-7."""
-    block, unit, value, tolerance, above, impacts = row
+    value, tolerance = (ROWS[quantity][name] for name in ("expected", "tolerance"))
+    block, unit = verification.PRINTED[quantity]
+    above, impacts = quantity != verification.END, IMPACTS.get(quantity)
     for solve in NAMES if block.linearised else (th.simulate, plain.simulate):
         safe, over = (
             solve(block, unit.scaled(value * (1 + off)), samples=2)
@@ -62,7 +49,7 @@ def test_overturning_begins_where_it_was_printed(row):
     wide = (value * (1 - 2 * tolerance), value * (1 + 2 * tolerance))
     found = th.overturning_intervals(block, unit, wide, resolution=tolerance)
     edge = found[0].lower if above else found[-1].upper
-    assert edge[0] == pytest.approx(value, rel=max(tolerance, 1e-3 * (impacts == 1)) * 1.01)
+    assert edge[0] == pytest.approx(value, rel=tolerance * 1.01)
     ends = [
         plain.judge(block, unit.scaled(factor))
         for factor in (edge[0] * (1 - 1e-7), edge[1] * (1 + 1e-7))

@@ -5,6 +5,7 @@ near a boundary of overturning (in amplitude), where errors of the outcome are l
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from scipy.special import ellipkinc
@@ -28,6 +29,23 @@ from topheavy.kernel.step import TOLERANCE
 OF_PRINT = 0.005  # of a number: the prints, which have three digits, are that far off at most
 OF_FORM = 1e-7  # of itself: a closed form
 AGREE = 1e-6  # of α: 99 % of the peaks of two solvers
+
+SLENDER = RockingBlock(1.0, 0.25, 0.9, linearised=True)
+ONE_SINE = Pulse("one-sine", 0.25, 5.0)  # of the amplitude α g
+QUICK = replace(SLENDER, frequency_parameter=2.14)
+PEER = RockingBlock(2.0, math.radians(15.0), 0.89952)
+FRAME = RockingFrame(Column(0.75, 3.5), 13.23)
+END = "one_sine_end_of_impact_mode"  # the upper end of an interval; the others are lower ends
+PRINTED = {
+    "one_sine_with_impact": (SLENDER, ONE_SINE),
+    END: (SLENDER, ONE_SINE),
+    "one_sine_without_impact": (SLENDER, ONE_SINE),
+    "one_sine_dimensional": (QUICK, Pulse("one-sine", 1.0, 15.7)),
+    "one_cosine_exact": (PEER, Pulse("one-cosine", 1.0, math.pi)),
+    "half_sine_linear": (Column(0.2, 0.6).block().linear(), Pulse("half-sine", 1.0, 2 * math.pi)),
+    "heavy_frame_ricker": (FRAME.block(), Pulse("ricker-symmetric", 1.0, 2 * math.pi / 3.14)),
+}
+"""Cases of the literature: a block, and a pulse on which a factor is printed."""
 
 
 def cells(settings, shape, linearised):
@@ -91,10 +109,11 @@ def agreement(settings, tightened):
                 }
 
 
-def boundary(block, pulse, near, which="lower"):
-    """Return the boundary of overturning of a pulse of 1 g nearest to one known to 2 %, in g."""
+def boundary(quantity, near):
+    """Return the boundary of overturning that is nearest to a factor, known to 2 %."""
+    which = "upper" if quantity == END else "lower"
     intervals = overturning_intervals(
-        block, pulse, (0.98 * near, 1.02 * near), resolution=1e-4 * near
+        *PRINTED[quantity], (0.98 * near, 1.02 * near), resolution=1e-4 * near
     )
     ends = [getattr(interval, which) for interval in intervals if getattr(interval, which)]
     middles = [(low + high) / 2.0 for low, high in ends if which == "upper" or low != high]
@@ -103,40 +122,7 @@ def boundary(block, pulse, near, which="lower"):
 
 def published(rows):
     """Return the numbers of the literature, as printed and as computed here."""
-    near = {row["quantity"]: row["expected"] for row in rows}
-    slender = RockingBlock(1.0, 0.25, 0.9, linearised=True)
-    one_sine = Pulse("one-sine", 1.0, 5.0)
-
-    def in_alpha(name, which="lower"):
-        return boundary(slender, one_sine, near[name] * 0.25, which) / 0.25
-
-    def in_g(name, block, *pulse):
-        return boundary(block, Pulse(pulse[0], 1.0, pulse[1]), near[name])
-
-    computed = {
-        "one_sine_with_impact": in_alpha("one_sine_with_impact"),
-        "one_sine_end_of_impact_mode": in_alpha("one_sine_end_of_impact_mode", "upper"),
-        "one_sine_without_impact": in_alpha("one_sine_without_impact"),
-        "one_sine_dimensional": in_g(
-            "one_sine_dimensional", RockingBlock(2.14, 0.25, 0.9, linearised=True), "one-sine", 15.7
-        ),
-        "one_cosine_exact": in_g(
-            "one_cosine_exact",
-            RockingBlock(2.0, math.radians(15.0), 0.89952),
-            "one-cosine",
-            math.pi,
-        ),
-        "half_sine_linear": in_g(
-            "half_sine_linear", Column(0.2, 0.6).block().linear(), "half-sine", 2 * math.pi
-        ),
-        "heavy_frame_ricker": in_g(
-            "heavy_frame_ricker",
-            RockingFrame(Column(0.75, 3.5), 13.23).block(),
-            "ricker-symmetric",
-            2 * math.pi / 3.14,
-        ),
-    }
-    return [row | {"computed": computed[row["quantity"]]} for row in rows]
+    return [row | {"computed": boundary(row["quantity"], row["expected"])} for row in rows]
 
 
 def free_rocking():

@@ -223,5 +223,5 @@ def test_sample_of_verification_is_half_at_boundaries():
 def test_boundary_is_the_nearest(monkeypatch):
     ends = [SimpleNamespace(lower=(0.29, 0.2901)), SimpleNamespace(lower=(0.302, 0.3021))]
     monkeypatch.setattr(verification, "overturning_intervals", lambda *_, **__: ends)
-    assert verification.boundary(COLUMN, None, 0.3) == pytest.approx(0.30205)
-    assert verification.boundary(COLUMN, None, 0.291) == pytest.approx(0.29005)
+    for near, nearest in ((0.3, 0.30205), (0.291, 0.29005)):
+        assert verification.boundary("half_sine_linear", near) == pytest.approx(nearest)
