@@ -112,9 +112,9 @@ def shares(axis, areas):
     for name, colour in (("prevented", PREVENTED), ("caused", CAUSED)):
         mean = 100 * areas[name].mean()
         axis.axhline(mean, color=colour, linewidth=0.7, linestyle=(0, (4, 2)))
-        note(axis, f"mean {mean:.1f}", (3.48, mean + 1.3), ha="right", color=colour)
+        note(axis, f"mean {mean:.1f}", (3.48, mean + 1.8), ha="right", color=colour)
     note(axis, "prevented", (0.42, 17.5), color=INK)
-    note(axis, "caused", (0.42, 3.0), color=CAUSED)
+    note(axis, "caused", (1.34, 3.0), color=CAUSED)
     axis.set_xticks(range(len(PULSES)), [words.replace(" ", "\n") for words in PULSES.values()])
     axis.tick_params(axis="x", length=0)
     axis.set(xlim=(-0.5, len(PULSES) - 0.5), ylim=(-0.6, 20), ylabel="Share of the map (%)")

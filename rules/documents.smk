@@ -213,7 +213,7 @@ rule expected:
         claims="results/claims.json",
         comparison="results/comparison.csv",
     output:
-        "results/summary.txt",
+        report("results/summary.txt", caption="report.rst", category="Verdicts"),
     log:
         "results/logs/expected.log",
     params:

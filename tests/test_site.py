@@ -134,7 +134,7 @@ def test_a_case_beside_a_figure_is_that_of_the_figure(pages):
     states = [dict(parse_qsl(link.partition("#")[2])) for link in links]
     ends = [outcomes({key: number(text) for key, text in state.items()}, {}) for state in states]
     assert [(column, frame) for column, _, frame in ends] == [
-        ("overturns", "survives"),  # the second pulse of Figure 6
+        ("overturns", "survives"),  # the second pulse of Figure 1
         ("survives", "overturns"),  # pulse 1 of Figure 8
     ]
 
