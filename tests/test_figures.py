@@ -418,7 +418,7 @@ def where(spectra, spectra_areas, spectra_histories):
             yield 2, look, group + 0.17 * (np.arange(len(of)) - (len(of) - 1) / 2), of
         mean = 100 * areas[name].mean()
         yield 2, f"{look[:7]} --", [0, 1], [mean] * 2
-        yield 2, f"{look[:7]} “mean {mean:.1f}”", 3.48, mean + 1.3
+        yield 2, f"{look[:7]} “mean {mean:.1f}”", 3.48, mean + 1.8
     angles = ", ".join(f"{angle:.2g}" for angle in areas.slenderness_deg.unique())
     yield 2, f"#000000 “(c) Four pulses, each with α = {angles}°”"
 
