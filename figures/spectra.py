@@ -65,7 +65,7 @@ def draw(spectra, config):
     letter(axes.flat, [*PULSES.values()] * 2)
     above = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.06)}  # the line of uplift
     axes[0, 3].legend(handlelength=1.4, labelspacing=0.2, borderaxespad=0.1, **above)
-    note(axes[0, 0], "uplift", (7.9, 1.1), color=GREY, ha="right")
+    note(axes[0, 0], "uplift", (7.9, 1.13), color=GREY, ha="right")
     note(axes[1, 0], "without\nimpact", (0.8, 5.6), color=GREY)
     note(axes[1, 0], r"$(\omega/\hat{p})^2/2\pi$", (4.6, 1.35), color=GREY)
     return figure

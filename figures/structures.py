@@ -61,7 +61,7 @@ def structures(axis, table, top):
     note(axis, text, ((edge - GAP) / 2, -9.0), ha="center", color=GREY)
     axis.plot(0, 11.5, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
     axis.plot(0, 11.5, ".", color=FORCE, markersize=2)
-    note(axis, "centre of gravity", (0.6, 11.5), color=FORCE)
+    note(axis, "centre of gravity", (0.7, 11.5), color=FORCE)
     axis.set(xlim=(-GAP, edge), ylim=(-10, top + 0.6), aspect="equal", anchor="N")
     axis.axis("off")
 
@@ -79,7 +79,7 @@ def curves(axis, table, column):
         line = [0.0, *curve.rotation_over_alpha], [0.0, *height]
         axis.plot(*line, color=colour, label=f"{height.max():.2g}: {name}", clip_on=False)
     axis.set(xlim=(0, 1.05), ylim=(0, None), xticks=(0, 0.5, 1))
-    axis.legend(loc="upper right", bbox_to_anchor=(1.02, 1.06), labelspacing=0.15)
+    axis.legend(loc="upper right", bbox_to_anchor=(1.02, 1.06), labelspacing=0.1, handlelength=1)
 
 
 def draw(four_structures, moment_rotation):
