@@ -1,7 +1,4 @@
-"""Judge every claim of a run, then say what is not as expected.
-
-One claim: python -m documents.judge eq25
-"""
+"""Judge every claim of a run, then say what is not as expected."""
 
 import csv
 import json
@@ -63,35 +60,6 @@ def expected(job: Any) -> None:
     write(job, {job.output[0]: text})
 
 
-def one(name: str) -> str:
-    """Return the line of one claim, from results/claims.json or else from the published tables."""
-    path = Path("results/claims.json")
-    if path.is_file():
-        rows = json.loads(path.read_text("utf-8"))
-    else:
-        from documents.check import published
-
-        rows = published()
-    matches = [row for row in rows if row["id"] == name]
-    if not matches:
-        raise SystemExit(
-            f"no claim of the last run has the id {name!r}; expected one of paper/claims.yaml; "
-            "for a new one: make reproduce"
-        )
-    row = matches[0]
-    lines = [f"{name}: {row['verdict']}", f"  {row['where']}: {row['statement']}"]
-    if row["shown"]:
-        lines.append(f"  printed {row['printed']}, computed {row['shown']}")
-    if row["differs"]:
-        lines.append(f"  our copy differs: {row['differs']}")
-    if row["rule"]:
-        lines.append(f"  by rule {row['rule']}, finding {row['finding']}")
-    return "\n".join([*lines, *([f"  {row['remark']}"] if row["remark"] else [])])
-
-
 if __name__ == "__main__":
-    if "snakemake" in globals():
-        with log_to(snakemake.log[0]):
-            (claims if snakemake.rule == "claims" else expected)(snakemake)
-    else:
-        print(*map(one, sys.argv[1:]), sep="\n")
+    with log_to(snakemake.log[0]):
+        (claims if snakemake.rule == "claims" else expected)(snakemake)

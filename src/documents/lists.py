@@ -49,15 +49,15 @@ class Docs:
     numbers, claims = "numbers.md", "verdicts.md"
 
     def file(self, path: str, line: int = 0) -> str:
-        """Return a link to a file of the repository, without a line: a comment would move it."""
+        """Return a link to a file; of the repository without a line, which a comment would move."""
         return f"[{path}](../{path})"
 
     def table(self, name: str) -> str:
-        """Return a link to a published table."""
+        """Return a link to a table, published or of the run."""
         return f"[{name}](../tests/reference/{name}.csv)"
 
     def figure(self, name: str) -> str:
-        """Return a link to what draws a figure."""
+        """Return a link to what draws a figure, or to the figure in its document."""
         return self.file(f"figures/{name}.py")
 
     def verdict(self, verdict: str) -> str:
@@ -65,11 +65,11 @@ class Docs:
         return f"**{verdict}**"
 
     def line(self, script: str, name: str, function: str = "findings") -> str:
-        """Return a link to the line of a result: none."""
+        """Return a link to the line of a result, on the site."""
         return ""
 
     def quotes(self, anchor: str) -> list[str]:
-        """Return the sentences that print a number: none, since a document is a file."""
+        """Return the sentences that print a number, with links to it, on the site."""
         return []
 
 
@@ -88,31 +88,25 @@ class Site(Docs):
                 self.lines.setdefault(quote.target, []).append(f"{link}: {words}")
 
     def file(self, path: str, line: int = 0) -> str:
-        """Return a link to the page of a script, at a line."""
         at = f"#L{line}" if line else ""
         shown = path.replace("__", r"\_\_")  # no emphasis
         return f"[{shown}{', line ' * bool(line)}{line or ''}](source/{path}.html{at})"
 
     def table(self, name: str) -> str:
-        """Return a link to a table of the run."""
         return f"[{name}](tables/{name}.csv)"
 
     def figure(self, name: str) -> str:
-        """Return a link to a figure in its document."""
         if name not in self.figures:  # its document is not made
             return super().figure(name)
         return f"[figure: {name}]({self.figures[name]}#fig-{name})"
 
-    def verdict(self, verdict: str) -> str:
-        """Return a verdict that the buttons above the claims can tell from others."""
+    def verdict(self, verdict: str) -> str:  # which the buttons above the claims tell apart
         return f'<b class="verdict{ORDER.index(verdict)}">{verdict}</b>'
 
     def line(self, script: str, name: str, function: str = "findings") -> str:
-        """Return a link to the line of a result."""
         return f". By {self.file(script, line_of(script, name, function))}"
 
     def quotes(self, anchor: str) -> list[str]:
-        """Return the sentences that print a number, with links to it."""
         return list(dict.fromkeys(self.lines.get(f"{self.numbers}#{anchor}", [])))
 
 
@@ -274,19 +268,9 @@ def claims(run: Run, to: Docs) -> str:
         rows.sort(key=lambda row: (ORDER.index(row["verdict"]), not row["differs"]))
         text += [*(_claim(row, run, to) for row in rows), ""]
     text.append("## Places where our copy differs\n")
-    return (
-        "\n".join(
-            [
-                *text,
-                *(
-                    f"- {row['where']} (`{row['id']}`), {row['differs']}. {row['remark']}"
-                    for row in run.claims
-                    if row["differs"]
-                ),
-            ]
-        )
-        + "\n"
-    )
+    for row in filter(lambda row: row["differs"], run.claims):
+        text.append(f"- {row['where']} (`{row['id']}`), {row['differs']}. {row['remark']}")
+    return "\n".join(text) + "\n"
 
 
 def _claim(row: dict[str, Any], run: Run, to: Docs) -> str:

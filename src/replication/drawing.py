@@ -94,9 +94,9 @@ def shades(
     return [tuple(low + (high - low) * step for low, high in pairs) for step in steps]
 
 
-def letter(axes: Sequence[Axes], titles: Sequence[str], first: str = "a") -> None:
-    """Title the panels (a), (b), …, or from another letter below a drawing with the first ones."""
-    for axis, mark, title in zip(axes, "abcdefgh"["abcdefgh".index(first) :], titles, strict=False):
+def letter(axes: Sequence[Axes], titles: Sequence[str]) -> None:
+    """Title the panels (a), (b), …"""
+    for axis, mark, title in zip(axes, "abcdefgh", titles, strict=False):
         axis.set_title(f"({mark}) {title}")
 
 

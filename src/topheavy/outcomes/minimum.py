@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +16,6 @@ from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.shapes import FiniteShape
 from topheavy.outcomes.search import (
-    Case,
     cases_of,
     checked_range,
     intervals_of_many,
@@ -144,8 +143,8 @@ def lowest_overturning(
             f"scale_range begins at {first:.6g}; expected factors from zero on: for the mirrored "
             "motion, give excitation.scaled(-1)"
         )
-    cases = cases_of([structure], excitation, scale_range, vertical, scale_vertical)
-    return _lowest(cases, [excitation], [scale_range], [checks.positive("floor", floor)])[0]
+    once = [structure], [excitation], [scale_range], [checks.positive("floor", floor)]
+    return lowest_of_many(*once, vertical, scale_vertical)[0]
 
 
 def lowest_of_many(
@@ -153,20 +152,14 @@ def lowest_of_many(
     excitations: Sequence[Pulse | Record],
     scale_ranges: Sequence[tuple[float, float]],
     floors: Sequence[float],
+    *vertical: Any,
 ) -> list[LowestOverturning]:
-    """Return the `lowest_overturning` of several structures, each with its motion and search."""
+    """Return the `lowest_overturning` of several structures, each with its motion and search.
+
+    All are searched together, in few calls.
+    """
     pairs = zip(structures, excitations, scale_ranges, strict=True)
-    cases = [cases_of([structure], motion, ends)[0] for structure, motion, ends in pairs]
-    return _lowest(cases, excitations, scale_ranges, floors)
-
-
-def _lowest(
-    cases: Sequence[Case],
-    excitations: Sequence[Pulse | Record],
-    scale_ranges: Sequence[tuple[float, float]],
-    floors: Sequence[float],
-) -> list[LowestOverturning]:
-    """Return the lowest factor of each case. All are searched together, in few calls."""
+    cases = [cases_of([structure], motion, ends, *vertical)[0] for structure, motion, ends in pairs]
     grids = [*map(_nested_grid, scale_ranges, floors)]
     begin, start = 0, [-1] * len(grids)  # the place in its grid of the first factor that overturns
     searched = [*range(len(grids))]

@@ -250,8 +250,7 @@ def overturning_intervals(
     >>> [interval.number_of_impacts for interval in intervals]
     [1, 0]
     """
-    resolution = checks.positive("resolution", resolution)
-    grid = _grid(scale_range, resolution)
+    grid = _grid(scale_range, resolution := checks.positive("resolution", resolution))
     cases = cases_of([structure], excitation, scale_range, vertical, scale_vertical)
     return intervals_on(cases, [grid], resolution, most_impacts)[0]
 

@@ -106,7 +106,9 @@ class Fragility:
             row = self.pairs.isel(pair=place)
             both = f"{row['second'].item()} over {row['first'].item()}"
             lines.append(f"{both}: gain {_line(row, 'gain', '', 'a median is')}")
-        if any("(unknown to" in line or "to unknown)" in line for line in lines):
+        values = (self.curves, "median_capacity"), (self.pairs, "gain")
+        ends = ((of[name], of[f"{name}_{end}"]) for of, name in values for end in ("low", "high"))
+        if any((np.isnan(end) & ~np.isnan(value)).any() for value, end in ends):
             lines.append("unknown ends: too many resamples have no median; add levels or motions")
         return "\n".join(lines)
 
