@@ -39,7 +39,7 @@ TURN, LONGEST = 25, 60.0
 #: Relative changes of a motion that leave a decided outcome, and what a peak may then differ, α.
 NUDGES, CLOSE = (-1e-6, -1e-8, 1e-8, 1e-6), 1e-6
 FARTHER = (*NUDGES, -1e-5, 1e-5)
-#: A tolerance whose change of a decided outcome is as slight.
+#: The tolerance of slightly changed motions, which is to leave a decided outcome as well.
 TIGHT = 1e-13
 
 
@@ -71,18 +71,11 @@ def bodies(draw: st.DrawFn) -> Structure:
     frame = draw(frames())
     wide = draw(st.floats(2.1, 20.0)) * frame.column.half_width
     lengths = [draw(edged(0.0, 2.0)) for _ in range(2)]
-    found = draw(
-        st.sampled_from(
-            [
-                frame,
-                frame.column,
-                th.FixedMassColumn(frame.column, frame.mass_ratio, *lengths),
-                th.MonolithicPortal(frame.column, frame.mass_ratio, wide, *lengths),
-            ]
-        )
-    )
-    assume(found.restitution >= 0.0)
-    return found
+    fixed = th.FixedMassColumn(frame.column, frame.mass_ratio, *lengths)
+    portal = th.MonolithicPortal(frame.column, frame.mass_ratio, wide, *lengths)
+    structure = draw(st.sampled_from([frame, frame.column, fixed, portal]))
+    assume(structure.restitution >= 0.0)
+    return structure
 
 
 structures = st.one_of(blocks(), bodies())
@@ -118,49 +111,29 @@ def shaken(draw: st.DrawFn, given: st.SearchStrategy[Structure] = structures) ->
 Ends = Callable[..., free_rocking.Outcome]
 
 
-def decided(ends: Ends, motion: Any, found: free_rocking.Outcome) -> float:
+def decided(ends: Ends, motion: Any, end: free_rocking.Outcome) -> float:
     """Return how far peaks may differ, rad; infinite where slight changes turn the outcome."""
-    others = [ends(motion.scaled(1.0 + nudge)) for nudge in NUDGES]
-    others.append(ends(motion, tolerance=TIGHT))
-    if any(other.overturned != found.overturned for other in others):
+    others = [ends(motion.scaled(1.0 + nudge), tolerance=TIGHT) for nudge in NUDGES]
+    if any(other.overturned != end.overturned for other in others):
         return math.inf
-    return (
-        0.0
-        if found.overturned
-        else 10.0 * max(abs(one.peak_rotation - found.peak_rotation) for one in others)
-    )
+    return 10.0 * max(apart(end, other) for other in others)
 
 
-def agree(block: RockingBlock, motion: Any, ends: Ends, other: Ends, why: str) -> None:
-    """Hold the endings of two solvers, functions of a motion, against each other."""
-    one, two = ends(motion), other(motion)
-    same = one.overturned == two.overturned
-    if same and (
-        one.overturned or abs(one.peak_rotation - two.peak_rotation) <= CLOSE * block.slenderness
-    ):
-        return
-    slack = max(decided(ends, motion, one), decided(other, motion, two))
-    assert slack == math.inf or same, f"{why}: {one} and {two}"
-    if same:
-        assert abs(one.peak_rotation - two.peak_rotation) <= slack + CLOSE * block.slenderness, (
-            f"{one}, {two}"
-        )
+def apart(one: Any, two: Any) -> float:
+    """Return how far two outcomes are apart: their peaks, rad, or infinitely."""
+    if one.overturned != two.overturned:
+        return math.inf
+    return 0.0 if one.overturned else abs(one.peak_rotation - two.peak_rotation)
 
 
-PROPERTIES: dict[Callable[..., None], tuple[st.SearchStrategy[Any], ...]] = {}
+def agree(block: RockingBlock, motion: Any, ends: Ends, other: Ends) -> None:
+    """Compare the endings by two solvers, which are functions of a motion."""
+    one, two, close = ends(motion), other(motion), CLOSE * block.slenderness
+    if apart(one, two) > close:
+        slack = max(decided(ends, motion, one), decided(other, motion, two))
+        assert apart(one, two) <= slack + close, f"{one} and {two}"
 
 
-def over(*strategies: st.SearchStrategy[Any]) -> Callable[..., Any]:
-    """Have a property tried on what the strategies draw."""
-
-    def listed(held: Callable[..., None]) -> Callable[..., None]:
-        PROPERTIES[held] = strategies
-        return held
-
-    return listed
-
-
-@over(shaken())
 def endings(case: Any) -> None:
     structure, motion, vertical = case
     block, above = structure.block(), {"vertical": vertical}
@@ -169,18 +142,13 @@ def endings(case: Any) -> None:
     def plainly(motion: Any, **_: float) -> free_rocking.Outcome:  # its steps are of one size
         return plain.judge(structure, motion, **above)
 
-    agree(block, motion, ends, plainly, "judge, plain solver")
-    whole, end = th.simulate(structure, motion, **above), ends(motion)
-    if whole.overturned != end.overturned:
-        assert decided(ends, motion, end) == math.inf, f"{whole.outcome}, {end}"
-    elif not end.overturned:
-        slack = decided(ends, motion, end)
-        assert abs(whole.peak_rotation - end.peak_rotation) <= slack + CLOSE * block.slenderness
-        assert np.isfinite(whole.rotation).all(), "a survivor without a rotation"
+    agree(block, motion, ends, plainly)
+    agree(block, motion, ends, partial(th.simulate, structure, **above))
+    whole = th.simulate(structure, motion, **above)
+    assert whole.overturned or np.isfinite(whole.rotation).all(), "a survivor without a rotation"
     assert (np.diff(whole.impact_times) >= 0.0).all()
 
 
-@over(shaken(), st.data())
 def histories(case: Any, data: st.DataObject) -> None:
     structure, motion, vertical = case
     block = structure.block()
@@ -195,21 +163,23 @@ def histories(case: Any, data: st.DataObject) -> None:
     how = {**start, "vertical": vertical, "duration": length, "samples": times}
     one, two = (follow(structure, motion, **how) for follow in (th.simulate, plain.simulate))
     assert one.overturned or one.outcome == "no uplift" or np.isfinite(one.rotation).all()
-    apart = np.nanmax(np.abs(one.rotation - two.rotation), initial=0.0)
-    if one.overturned == two.overturned and apart <= CLOSE * alpha:
+
+    def difference(other: th.Response) -> float:
+        return np.nanmax(np.abs(other.rotation - one.rotation), initial=0.0)
+
+    if one.overturned == two.overturned and difference(two) <= CLOSE * alpha:
         return
-    near = [th.simulate(structure, motion.scaled(1.0 + nudge), **how) for nudge in FARTHER]
+    near, how = [], how | {"tolerance": TIGHT}
     for nudge in FARTHER:  # a start may have the energy of the barrier to the last bit
         begun = {name: value * (1.0 + nudge) for name, value in start.items()}
+        near.append(th.simulate(structure, motion.scaled(1.0 + nudge), **how))
         near.append(th.simulate(structure, motion, **(how | begun)))
-    near.append(th.simulate(structure, motion, **how, tolerance=TIGHT))
-    if {each.outcome for each in near} == {one.outcome}:
-        spread = max(np.nanmax(np.abs(each.rotation - one.rotation), initial=0.0) for each in near)
+    if {other.outcome for other in near} == {one.outcome}:
         assert one.overturned == two.overturned, f"{one.outcome} and {two.outcome}"
-        assert apart <= CLOSE * alpha + 10.0 * spread, f"{apart / alpha:.2g} α apart"
+        slack = 10.0 * max(map(difference, near))
+        assert difference(two) <= CLOSE * alpha + slack, f"{difference(two) / alpha:.2g} α apart"
 
 
-@over(st.lists(structures, min_size=1, max_size=4), st.data())
 def grids(several: list[Any], data: st.DataObject) -> None:
     structure, motion, vertical = data.draw(shaken(st.just(several[0])))
     factors = data.draw(st.lists(edged(0.0, 1.0), min_size=1, max_size=12))
@@ -223,31 +193,21 @@ def grids(several: list[Any], data: st.DataObject) -> None:
             scaled = motion.scaled(factor)
             end = ends(scaled)
             assert overturned == end.overturned or decided(ends, scaled, end) == math.inf
+    block = structure.block()
     if isinstance(motion, Pulse):
-        cells = th.overturning_map(
-            structure,
-            motion.shape,
-            [motion.angular_frequency],
-            abs(motion.amplitude) * np.array(factors),
-        )
-        each = [th.Pulse(motion.shape, float(a), motion.angular_frequency) for a in cells.amplitude]
+        omega, sizes = motion.angular_frequency, abs(motion.amplitude) * np.array(factors)
+        cells = th.overturning_map(structure, motion.shape, [omega], sizes)
+        each = [th.Pulse(motion.shape, float(size), omega) for size in cells.amplitude]
     else:
         assume(motion.peak_acceleration > 1e-9)
-        sizes = [solitary_size(several[0].block().frequency_parameter)]
-        peaks = motion.peak_acceleration * np.array(factors)
-        block = structure.block()
-        cells = th.overturning_map(block, motion, sizes, peaks)
-        structure, each = block, [motion.scaled(factor) for factor in factors]
-    ends = partial(th.judge, structure)
-    for k, pulse in enumerate(each):
-        end, peak = ends(pulse), float(cells.peak_rotation.values.ravel()[k])
-        slack = decided(ends, pulse, end)
-        assert math.isnan(peak) == end.overturned or slack == math.inf
-        close = slack + CLOSE * structure.block().slenderness
-        assert end.overturned or math.isnan(peak) or abs(peak - end.peak_rotation) <= close
+        sizes = motion.peak_acceleration * np.array(factors)
+        cells = th.overturning_map(block, motion, [solitary_size(block.frequency_parameter)], sizes)
+        each = [motion.scaled(factor) for factor in factors]
+    for scaled, peak in zip(each, cells.peak_rotation.values.ravel(), strict=True):
+        cell = free_rocking.Outcome(math.isnan(peak), float(peak), 0)
+        agree(block, scaled, partial(th.judge, structure), lambda *_, _cell=cell, **__: _cell)
 
 
-@over(shaken())
 def searches(case: Any) -> None:
     structure, motion, vertical = case
     above = {"vertical": vertical, "scale_vertical": False}
@@ -262,13 +222,21 @@ def searches(case: Any) -> None:
     assert deep.bracket is None or th.overturned_by(structure, motion, [deep.factor], **above)[0]
 
 
-@over(shaken().filter(lambda case: isinstance(case[1], Pulse)))
 def proofs(case: Any) -> None:
     structure, pulse, _ = case
     certificate, end = th.proven.certified(structure, pulse), th.judge(structure, pulse)
     if certificate:
         outcome = certificate["outcome"]
         assert end.overturned == (outcome == "overturns"), f"{outcome} is proven, judged {end}"
+
+
+PROPERTIES = {
+    endings: [shaken()],
+    histories: [shaken(), st.data()],
+    grids: [st.lists(structures, min_size=1, max_size=4), st.data()],
+    searches: [shaken()],
+    proofs: [shaken().filter(lambda case: isinstance(case[1], Pulse))],
+}
 
 
 def tried(held: Callable[..., None], number: int, most: int) -> int:

@@ -20,11 +20,9 @@ def test_solvers_that_differ_on_a_decided_outcome_disagree(other):
     block, pulse = RockingBlock(2.0, 0.2, 0.9), Pulse("constant", 1.0, 6.0)
     one = Outcome(False, 0.1, 0)
     with pytest.raises(AssertionError, match="Outcome"):
-        fuzz.agree(block, pulse, lambda *_, **__: one, lambda *_, **__: other, "two")
+        fuzz.agree(block, pulse, lambda *_, **__: one, lambda *_, **__: other)
     near = Outcome(False, 0.1 + 1e-8, 0)
-    fuzz.agree(block, pulse, lambda *_, **__: one, lambda *_, **__: near, "two")
+    fuzz.agree(block, pulse, lambda *_, **__: one, lambda *_, **__: near)
     turning = iter([one, *[one, other] * 9])
     if other.overturned:
-        fuzz.agree(
-            block, pulse, lambda *_, **__: next(turning), lambda *_, **__: other, "undecided"
-        )
+        fuzz.agree(block, pulse, lambda *_, **__: next(turning), lambda *_, **__: other)
