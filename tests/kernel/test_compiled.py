@@ -16,9 +16,9 @@ PACKAGE, OTHER = Path(topheavy.__file__).parent, "bodies/free_rocking.py"
 
 
 ASK = """
-from topheavy.kernel.rest import next_tick
-next_tick(1.0)
-print(sum(next_tick.stats.cache_hits.values()))
+from topheavy.kernel.history import is_straight
+is_straight(1)
+print(sum(is_straight.stats.cache_hits.values()))
 """
 
 

@@ -105,8 +105,8 @@ def outcomes_of(
     orders = np.full(size, PULSE_ORDER)
     is_record = waveform.wave == RECORD
     if is_record:
-        steps, at = np.unique(scales, return_inverse=True)
-        orders = np.array([record_order(step, tolerance) for step in steps.tolist()])[at]
+        order_of = {step: record_order(step, tolerance) for step in {*scales.tolist()}}
+        orders = np.array([order_of[step] for step in scales.tolist()], np.int64)
     vertical_factors = np.zeros(size) if vertical_factors is None else vertical_factors
     # In C order, as numba would compile all anew for arrays that are not.
     cells = Cells(
@@ -131,7 +131,7 @@ def outcomes_of(
     return results
 
 
-@compiled(nogil=True)
+@compiled(nogil=True, no_cpython_wrapper=False)
 def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results):
     """Fill the results from the first cell to the one before the last; stop where one is given up.
 
@@ -178,13 +178,17 @@ def outcome_of(
     tolerance: float = TOLERANCE,
 ) -> Outcome:
     """Return the outcome of one history; see `outcomes_of`."""
-    forcing = forcing_of(waveform, scale, amplitude, vertical_factor)
-    method = method_of(forcing, tolerance)
-    history = _called(lambda w: judge(w, method, block, forcing), forcing)
-    if history.result == UNRESOLVED:
-        raise _unresolved(block, waveform, scale, amplitude)
-    overturned = history.result == OVERTURNED
-    return Outcome(overturned, math.nan if overturned else history.peak, history.impacts)
+    scales, amplitudes, factors = np.array([[scale], [amplitude], [vertical_factor]])
+    peaks, overturned, impacts = outcomes_of(
+        [block],
+        waveform,
+        np.zeros(1, np.int64),
+        scales,
+        amplitudes,
+        vertical_factors=factors,
+        tolerance=tolerance,
+    )
+    return Outcome(bool(overturned[0]), float(peaks[0]), int(impacts[0]))
 
 
 def sampled(
@@ -196,24 +200,15 @@ def sampled(
     samples: Samples,
 ) -> History:
     """Return the history of a block from θ and dθ/dτ on, and fill its samples; see `sample`."""
+    is_record = forcing.wave == RECORD
+    order = record_order(forcing.step, tolerance) if is_record else PULSE_ORDER
+    method = Method(order, tolerance, is_straight(forcing.wave))
 
     def call(w: Array) -> History:
-        method = method_of(forcing, tolerance)
         history: History = sample(w, method, block, forcing, *start, until, samples)
         return history
 
-    return _called(call, forcing, samples.times.size)
-
-
-def method_of(forcing: Forcing, tolerance: float) -> Method:
-    """Return how the steps of a history are taken."""
-    is_record = forcing.wave == RECORD
-    order = record_order(forcing.step, tolerance) if is_record else PULSE_ORDER
-    return Method(order, tolerance, is_straight(forcing.wave))
-
-
-def _called(call: Callable[[Array], History], forcing: Forcing, samples: int = 0) -> History:
-    is_long = forcing.record.shape[1] + samples > MIN_THREADED_SAMPLES
+    is_long = forcing.record.shape[1] + samples.times.size > MIN_THREADED_SAMPLES
     return in_threads([call])[0] if is_long else call(working_array())
 
 

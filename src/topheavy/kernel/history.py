@@ -96,7 +96,7 @@ class RockingState(NamedTuple):
     impacts: int  # those that count
 
 
-@compiled(nogil=True)
+@compiled(inline="always")
 def judge(w, method, block, forcing):
     """Follow a block from rest until its outcome is known and return its `History`."""
     state = State(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0)
@@ -123,7 +123,7 @@ def judge(w, method, block, forcing):
     return History(motion.state.time, UNRESOLVED, motion.peak, motion.impacts, motion.impacts)
 
 
-@compiled(nogil=True)
+@compiled(nogil=True, no_cpython_wrapper=False)
 def sample(w, method, block, forcing, rotation, velocity, until, samples):
     """Follow a block, fill the samples and return its `History`.
 
@@ -203,7 +203,7 @@ def _sample_free(w, tolerance, block, forcing, motion, until, samples, filled):
     return History(motion.state.time, UNRESOLVED, motion.peak, counted, motion.impacts)
 
 
-@compiled(forceinline=True, no_cpython_wrapper=False)
+@compiled(inline="always")
 def next_event(w, method, block, forcing, motion, until):
     """Take the next step of a block that rocks.
 
@@ -327,7 +327,7 @@ def at_time(state, time):
     return State(time, side, rotation, velocity, sine, cosine, push, rate, gravity, change)
 
 
-@compiled
+@compiled(no_cpython_wrapper=False)
 def is_straight(wave):
     """Return whether a and G are straight lines over each step."""
     return wave in (RECORD, CONSTANT, NONE)
