@@ -10,9 +10,9 @@ from topheavy.bodies.free_rocking import Outcome
 def test_every_property_holds(monkeypatch, capsys):
     monkeypatch.setattr(fuzz, "TURN", 3)
     assert fuzz.main(0.0, 4) == 0
-    told = capsys.readouterr().out
-    assert told.startswith("seed 4: ")
-    assert all(f"{held.__name__} " in told for held in fuzz.PROPERTIES)
+    printed = capsys.readouterr().out
+    assert printed.startswith("seed 4: ")
+    assert all(f"{held.__name__} " in printed for held in fuzz.PROPERTIES)
 
 
 @pytest.mark.parametrize("other", [Outcome(True, 0.1, 0), Outcome(False, 0.100003, 0)])
