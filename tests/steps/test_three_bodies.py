@@ -23,9 +23,9 @@ PULSES = (
 rocked = partial(simulate_three_bodies, FRAME, **SHAPE)
 
 
-def off(history, frame, excitation, duration, **start):
+def off(history, frame, excitation, duration):
     """Largest |θ − θ of the block| normalised by α, of both columns."""
-    block = simulate(frame, excitation, duration=duration, samples=history.time, **start)
+    block = simulate(frame, excitation, duration=duration, samples=history.time)
     assert np.array_equal(np.isnan(history.rotation[:, 0]), np.isnan(block.rotation))
     return np.nanmax(np.abs(history.rotation - block.rotation[:, None])) / frame.slenderness
 
@@ -54,9 +54,8 @@ def test_three_bodies_move_as_the_rocking_block(mass_ratio, pulse):
 @pytest.mark.parametrize("mass_ratio", [0.0, 1.0, 100.0])
 def test_three_bodies_rock_to_rest_as_the_rocking_block(mass_ratio):
     frame = RockingFrame(TRILITH, mass_ratio)
-    start = {"rotation": -0.6 * frame.slenderness}
-    history = simulate_three_bodies(frame, **SHAPE, duration=8.0, samples=200, **start)
-    assert off(history, frame, None, 8.0, **start) < 1e-7
+    history = simulate_three_bodies(frame, PULSES[2], **SHAPE, duration=12.0, samples=200)
+    assert off(history, frame, PULSES[2], 12.0) < 1e-7
     assert history.outcome == "rests"
     # the last bounces are slower than their error, hence the first alone
     assert history.velocity_ratios[:10] == pytest.approx(frame.restitution, abs=1e-11)
@@ -76,12 +75,12 @@ def test_columns_stay_parallel_the_cap_level_and_the_contacts_pressed():
 
 
 def test_energy_is_conserved_between_impacts_and_falls_by_the_square_of_the_ratio():
-    history = rocked(duration=1.5, rotation=0.7 * FRAME.slenderness, samples=400)
+    pulse = PULSES[2]  # and it rocks freely when the pulse has ended
+    history = rocked(pulse, duration=4.0, samples=np.linspace(pulse.duration + 1e-9, 4.0, 800))
     level = energy(history, FRAME)
     flight = np.searchsorted(history.impacts, history.time, side="right")
-    assert flight[-1] >= 2
     means = []
-    for number in range(flight[-1] + 1):
+    for number in range(flight[0], flight[0] + 4):
         inside = level[flight == number]
         assert np.ptp(inside) < 1e-10 * inside.mean()
         means.append(inside.mean())
@@ -97,19 +96,12 @@ def test_frame_uplifts_beyond_tan_alpha(share, outcome):
     assert history.coordinates.any() == (outcome != "no uplift")
 
 
-def test_tighter_tolerance_changes_next_to_nothing():
-    usual, loose = (
-        rocked(PULSES[2], duration=3.0, samples=100, tolerance=tolerance)
-        for tolerance in (1e-12, 1e-10)
-    )
-    assert np.abs(usual.rotation - loose.rotation).max() < 1e-6 * FRAME.slenderness
-
-
-def test_contacts_that_come_apart_are_an_error():
+def test_contacts_that_come_apart_are_an_error(monkeypatch):
+    monkeypatch.setattr("steps.shared.three_bodies.TOLERANCE", 1e-2)
     with pytest.raises(ArithmeticError, match="a column is upright and another body is"):
-        rocked(duration=3.0, rotation=0.9 * FRAME.slenderness, tolerance=1e-2)
+        rocked(PULSES[2], duration=3.0)
 
 
 def test_span_of_overlapping_columns_is_refused():
     with pytest.raises(ValueError, match=r"span is 0\.1 m; expected more than the width of a col"):
-        rocked(duration=1.0, span=0.1)
+        rocked(PULSES[2], duration=1.0, span=0.1)

@@ -104,15 +104,6 @@ class ThreeBodies:
         cos, sin = np.cos(angle), np.sin(angle)
         return x * cos + z * sin, z * cos - x * sin
 
-    def gaps(self, sides: Sides, coordinates: Vector) -> Vector:
-        """Return how far the points of each contact are apart, m, shape (4, 2)."""
-        gaps = np.zeros((4, 2))
-        points = zip(self.turned_arms(sides, coordinates), self.arms(sides), strict=True)
-        for axis, (turned, upright) in enumerate(points):
-            apart = _SIGN * (coordinates[3 * _BODY + axis] + turned - upright)
-            np.add.at(gaps[:, axis], _CONTACT, apart)
-        return gaps
-
     def matrix(self, turned: tuple[Vector, Vector]) -> Vector:
         """Return the matrix of the system for the arms of the six points, shape (17, 17)."""
         matrix = self._unturned.copy()

@@ -80,32 +80,25 @@ class ThreeBodyResponse(NamedTuple):
 
 def simulate_three_bodies(
     frame: RockingFrame,
-    pulse: Pulse | None = None,
+    pulse: Pulse,
     *,
     span: float,
     cap_depth: float,
     duration: float,
-    rotation: float = 0.0,
-    velocity: float = 0.0,
     samples: int | ArrayLike = 1000,
-    tolerance: float = TOLERANCE,
 ) -> ThreeBodyResponse:
-    """Return the motion of the three bodies under a pulse, or rocking freely without one.
+    """Return the motion of the three bodies from rest under a pulse.
 
     Parameters
     ----------
     frame : RockingFrame
-    pulse : Pulse, optional
+    pulse : Pulse
     span, cap_depth : float
         Distance between the axes of the columns and depth of the cap beam, m.
     duration : float
         Where the history ends, s.
-    rotation, velocity : float
-        θ (rad) and θ̇ (rad/s) of both columns at t = 0, signed; the cap beam is level.
     samples : int or array_like
         A number of uniform times from 0 to the duration, or increasing times in s.
-    tolerance : float
-        Of the integration, relative to a motion as large as α.
 
     Raises
     ------
@@ -123,23 +116,21 @@ def simulate_three_bodies(
     """
     bodies = ThreeBodies(frame, span, cap_depth)
     until = checks.positive("duration", duration, "s")
-    checks.within("tolerance", tolerance, 1e-13, 1e-2)  # as SciPy takes it
     times = sample_times(samples)
     if isinstance(times, int):
         times = np.linspace(0.0, until, times)
-    sides, state = _start(bodies, rotation, velocity)
+    sides, state = (1, 1), np.zeros(18)
     lifts = uplift_accelerations(bodies)
     level = min(abs(lift) for lift in lifts.values())
     size, alpha = frame.column.size, frame.slenderness
     length = np.array([size, size, 1.0] * 3)
-    scale = tolerance * alpha * np.append(length, math.sqrt(STANDARD_GRAVITY / size) * length)
+    scale = TOLERANCE * alpha * np.append(length, math.sqrt(STANDARD_GRAVITY / size) * length)
     states, forces = np.full((times.size, 18), math.nan), np.full((times.size, 4, 2), math.nan)
     hits: list[tuple[float, Vector]] = []
-    moving, outcome, time = bool(state.any()), "no uplift", 0.0
-    end = min(until, pulse.duration) if pulse else 0.0
+    moving, outcome, time, end = False, "no uplift", 0.0, min(until, pulse.duration)
     while time < until and outcome != "overturned":
         stop = end if time < end else until
-        ground = pulse.excitation if pulse and time < end else np.zeros_like
+        ground = pulse.excitation if time < end else np.zeros_like
         if not moving:
             lifted = _uplift(ground, time, stop, level)
             states[(time <= times) & (times <= lifted)] = 0.0
@@ -169,7 +160,7 @@ def simulate_three_bodies(
             "DOP853",
             dense_output=True,
             events=[upright, flat],
-            rtol=tolerance,
+            rtol=TOLERANCE,
             atol=scale,
         )
         if not flight.success:
@@ -198,23 +189,6 @@ def simulate_three_bodies(
         np.reshape([ratios for _, ratios in hits], (-1, 2)),
         outcome,
     )
-
-
-def _start(bodies: ThreeBodies, rotation: float, velocity: float) -> tuple[Sides, Vector]:
-    """Return corners and (q, q̇) at t = 0: equal columns at θ and θ̇, and all contacts closed."""
-    theta = checks.finite("rotation", rotation)
-    rate = checks.finite("velocity", velocity)
-    if abs(theta) >= math.pi / 2:
-        raise ValueError(f"rotation is {theta:.6g} rad; expected less than π/2, where it lies flat")
-    side = -1 if (theta or rate) < 0.0 else 1
-    sides = (side, side)
-    coordinates = np.zeros(9)
-    coordinates[COLUMNS] = theta
-    for body in range(3):  # the contact of the same number closes as the body is moved there
-        coordinates[3 * body : 3 * body + 2] -= bodies.gaps(sides, coordinates)[body]
-    jacobian = bodies.matrix(bodies.turned_arms(sides, coordinates))[9:, :9]
-    moving_on = np.vstack([jacobian, np.eye(9)[2]])
-    return sides, np.append(coordinates, np.linalg.solve(moving_on, rate * np.eye(9)[8]))
 
 
 def _uplift(ground: Callable, time: float, stop: float, level: float) -> float:
