@@ -28,6 +28,8 @@ PAGES = {  # at the head of each page
     "numbers.html": "Numbers",
     "explorer.html": "Play",
     "notebook_paper.html": "Notebook",
+    "notebook_derivation.html": "Derivation",
+    "notebook_play.html": "Library",
     "functions.html": "Functions",
     "sources.html": "Sources",
     "report.pdf": "PDF",
