@@ -277,14 +277,15 @@ def advance(lanes, begin, end, drive):
 def turns_twice(lanes, phi, rate, dx):
     """Return which lanes turn twice within a step, and the part of dx that ends between both turns.
 
-    With φ as a cubic of time, φ' is mid + half u + bow u² for −1 < u < 1. It has two zeros at most,
-    since the forcing is monotone between corners, and its slope outweighs that of the rest there.
+    With φ as a cubic of time, dt φ' = mid + half u + bow u² for −1 < u < 1. There is no third turn,
+    since the forcing is monotone between corners.
     """
     dt = dx * lanes[PACE]
     half, mean = dt * (rate - lanes[RATE]) / 2, dt * (rate + lanes[RATE]) / 2
     bow = 3 * (mean - phi + lanes[PHI]) / 2
+    mid = mean - bow
     within = (rate * lanes[RATE] > 0) & (bow * rate > 0) & (np.abs(half) < 2 * np.abs(bow))
-    twice = within & (half**2 > 4 * bow * (mean - bow)) & (dt > SHORTEST_CUT)
+    twice = within & (half**2 > 4 * bow * mid) & (dt > SHORTEST_CUT)
     return twice, dx[twice] / 2 * (1 - half[twice] / (2 * bow[twice]))
 
 
@@ -385,8 +386,7 @@ def impact(lanes, dx, drive):
 def minima(bodies, ground, omega, highest=20.0, step=0.002):
     """Return the lowest amplitude (g) that overturns each body, ∞ beyond a multiple of tan α.
 
-    In steps over tan α from uplift on, 64 at once; the first that overturns is cut into 64, four
-    times.
+    64 steps over tan α at once, from uplift on; the first that overturns is cut by 64, four times.
     """
     count, level = len(bodies), np.tan([body.alpha for body in bodies])
     omega, left = np.broadcast_to(omega, count), np.arange(count)
