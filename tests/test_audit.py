@@ -99,16 +99,19 @@ def test_a_turned_sign_is_named(folder, old, new, part, named):
     assert named in done.stderr + done.stdout.rpartition(" depart\n")[2]
 
 
-def test_two_turns_within_a_step_are_seen():
-    """A body bounces between two samples of a record; samples of its motion shorten the steps."""
+@pytest.mark.parametrize(("start", "impacts"), [((0.0, 0.0), 6), ((0.3, -0.1), 0)])
+def test_two_turns_within_a_step_are_seen(start, impacts):
+    """A body turns twice between two samples of a record; samples of its motion shorten steps."""
     above, body = np.array([0.75, 0.0, 0.0]), solver.Body(1.0, 1.0, 1.0)
     ground = solver.record(np.array([3.11481545, 0.0, 3.11481545]), 0.25)
     ground = ground._replace(weight=lambda x: 1 + np.interp(x, ground.corners, above))
-    whole, cut = (
-        solver.follow([body], -1.0, ground, samples=at) for at in ((), np.linspace(0, 0.5, 99))
+    one, other = (
+        solver.follow([body], -1.0, ground, start=start, samples=np.linspace(0.0, 0.5, count))
+        for count in (3, 99)
     )
-    assert whole.hits == cut.hits == 6
-    assert whole.peak == pytest.approx(cut.peak, rel=1e-6)
+    assert one.hits == other.hits == impacts
+    assert one.peak == pytest.approx(other.peak, rel=1e-6)
+    assert one.rotation[0, -1] == pytest.approx(other.rotation[0, -1], abs=1e-8)
 
 
 def test_numbers_of_the_abstract_are_recomputed_and_the_others_listed():
