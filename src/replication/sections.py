@@ -42,6 +42,7 @@ Seed = Annotated[int, Field(ge=0, strict=True)]
 Degrees = Annotated[float, Field(ge=1, le=60, strict=True)]  # at least 1: no radians
 StructureName = Annotated[str, AfterValidator(_structure)]
 Items = Annotated[list[Entry], Field(min_length=1)]
+Rising = Annotated[Items[Entry], AfterValidator(_rising)]
 Pair = Annotated[list[Positive], Field(min_length=2, max_length=2)]
 Range = Annotated[list[Entry], Field(min_length=2, max_length=2), AfterValidator(_rising)]
 
@@ -106,10 +107,10 @@ TYPES = (
     (Grid, "amplitudes factors frequencies frequency_ratios intensities sizes"),
     (Tolerance, "absolute relative tightened tolerance"),
     (Degrees, "largest_slenderness slenderness"),
-    (Items[Degrees], "oblique slendernesses"),
+    (Rising[Degrees], "oblique slendernesses"),
     (Number, "expected printed to"),
     (MassRatio, "mass_ratio"),
-    (Items[MassRatio], "mass_ratios"),
+    (Rising[MassRatio], "mass_ratios"),
     (Duration, "duration ramp"),
     (Pair, "half_measures masses"),
     (Seed, "seed"),
@@ -170,12 +171,12 @@ Paper = section(
     ),
     allen=section(
         "mass_ratio pulse factor",
-        errors=section("slendernesses amplitudes pulses", mass_ratios=Items[Positive]),
+        errors=section("slendernesses amplitudes pulses", mass_ratios=Rising[Positive]),
         maps=section("shape mass_ratio frequency_ratios amplitudes slenderness"),
     ),
     statements=section(
         "cap duration samples",
-        mass_ratios=Items[Positive],
+        mass_ratios=Rising[Positive],
         pulses=Items[section("shape frequency_ratio amplitude")],
     ),
     verification=section(
@@ -226,7 +227,7 @@ Paper = section(
     ),
     friction=section(
         "structure shapes frequency_ratios amplitudes samples bays depth sufficient check_samples",
-        mass_ratios=Items[Positive],
+        mass_ratios=Rising[Positive],
     ),
     designers=section("structure mass_ratios velocities"),
     engine=section(
@@ -242,7 +243,7 @@ Paper = section(
         ),
         across=section(
             "structure shape depths time_step friction checks oblique",
-            mass_ratios=Items[Positive],
+            mass_ratios=Rising[Positive],
             frequency_ratios=Items[Positive],
             step=Positive,
         ),
