@@ -223,7 +223,7 @@ Paper = section(
     ),
     records=section(
         "mass_ratios slendernesses sample sizes factors",
-        capacity=section("structure mass_ratios highest step windows share"),
+        capacity=section("structure mass_ratios windows share"),
     ),
     friction=section(
         "structure shapes frequency_ratios amplitudes samples bays depth sufficient check_samples",

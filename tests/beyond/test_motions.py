@@ -11,7 +11,7 @@ from steps.beyond import break_even, motions, records
 from steps.shared import filtered_noise, plain, sweep
 from steps.shared.filtered_noise import Soil
 from tests.cases import COLUMN, CONFIG, broken
-from topheavy import Column, Record, RockingFrame, judge
+from topheavy import Capacity, Column, Record, RockingFrame, judge
 
 EVEN = CONFIG["break_even"] | {"reductions": {"highest": 0.2, "step": 0.1}}
 SETTINGS = CONFIG["motions"] | {
@@ -331,14 +331,14 @@ def test_counts_are_of_outcomes_that_are_known(monkeypatch):
 
 def test_capacity_that_one_outcome_moves_is_not_decided(monkeypatch):
     places = np.arange(401)
-    by_tolerance = {1e-12: places > 300, 1e-13: (places > 300) & (places != 330)}
-    outcomes = lambda *motion, tolerance: by_tolerance[tolerance][: len(motion[2])]  # noqa: E731
-    monkeypatch.setattr(records, "overturned_by", outcomes)
-    spec = {"step": 0.001, "highest": 1.4919, "windows": [0.05, 0.02], "share": 1.0}
-    spec["mass_ratios"] = [0.0]
+    first = Capacity(1.001**places, places > 300)
+    monkeypatch.setattr(records, "capacity", lambda *_: first)
+    again = lambda *motion, tolerance: abs(motion[2] / 1.001**330 - 1) > 1e-6  # noqa: E731
+    monkeypatch.setattr(records, "overturned_by", again)
+    spec = {"windows": [0.05, 0.02], "share": 1.0, "mass_ratios": [0.0]}
     wide, narrow = records.capacities(spec, COLUMN, [Record(0.01, [0.1, 0.2])], 1e-12)
     assert math.isnan(wide["capacity"])
-    assert narrow["capacity"] == pytest.approx(COLUMN.uplift_acceleration * 1.001**301)
+    assert narrow["capacity"] == pytest.approx(0.2 * 1.001**301)
 
 
 def test_outcomes_that_a_nudge_changes_are_not_known():

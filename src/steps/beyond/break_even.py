@@ -36,7 +36,7 @@ def compute(settings, motions, structures, shards):
     for number, name in enumerate(FAMILIES):
         quakes = [each for each in sets(motions) if each.startswith(name)]
         parts = [outcomes(shards, f"{each}: lowered") == 1 for each in quakes]
-        samples |= dict(zip(quakes, parts, strict=True))
+        samples[quakes[0]] = parts[0]
         fell, groups = np.concatenate(parts), np.repeat(quakes, [len(part) for part in parts])
         spec = settings["bootstrap"] | {"seed": settings["bootstrap"]["seed"] + number}
         ensemble = Ensemble(fell, groups.tolist(), **spec)
@@ -111,7 +111,7 @@ def row(name, way, share, ensemble, column, frame):
 
 
 def sampled(samples, settings, motions, column):
-    """Yield outcomes under a random motion of each set, half of them beside a boundary."""
+    """Yield outcomes under a random motion of each family, half of them beside a boundary."""
     random = np.random.default_rng(settings["bootstrap"]["seed"])
     question, motions_of = restitution_question(motions, settings, column), models(motions)
     for name, fell in samples.items():

@@ -165,7 +165,8 @@ def sampled(shards, settings, column):
     """Yield outcomes under random motions; half of those without vertical motion at a boundary."""
     random = np.random.default_rng(settings["bootstrap"]["seed"])
     question, motions = stated(settings, column), models(settings)
-    for model in [*motions] * settings["sample"]:
+    for place in np.linspace(0, len(motions) - 1, settings["sample"]).astype(int):
+        model = [*motions][place]
         results = outcomes(shards, model)[..., 0]
         at = int(random.choice(np.flatnonzero((results != FREE_FALL).all(axis=1))))
         record, up = components(motions[model][at], settings)

@@ -5,13 +5,14 @@ intervals.
 """
 
 import math
+from dataclasses import replace
 from itertools import combinations, product
 
 import numpy as np
 
 from replication.step import check, geometric, run, truth
 from steps.shared.plain import NUDGE, check_sample
-from topheavy import Capacity, Column, RockingFrame, overturned_by, read_record
+from topheavy import Column, RockingFrame, capacity, overturned_by, read_record
 
 BESIDE = 3  # factors on either side of a change of the outcome
 
@@ -46,35 +47,26 @@ def compute(settings, solver, structures, components):
 def capacities(spec, column, records, tightened):
     """Yield the capacities of the column (γ = 0) and its frames under each record, in g, by window.
 
-    A capacity is a threshold on a count of outcomes, which one outcome can move far. It is computed
-    at the tightened tolerance, again at a tenth of it, and under the record times 1 + NUDGE; unless
-    these are the same, it is not decided, and NaN. The two repeats leave out the factors above the
-    last window of the first time.
+    A capacity is a threshold on a count of outcomes, which one outcome can move far. From the first
+    factor that overturns to the end of the last window it is computed again, under the record times
+    1 + NUDGE and at the tightened tolerance; unless it is the same, it is not decided, and NaN.
     """
-    ratios = (1.0 + spec["step"]) ** np.arange(math.log(spec["highest"]) / math.log1p(spec["step"]))
     for record, gamma in product(records, spec["mass_ratios"]):
-        frame, peak = RockingFrame(column, gamma), record.peak_acceleration
-        factors = ratios * column.uplift_acceleration / peak
-        first = Capacity(
-            factors,
-            overturned_by(frame, record, factors, tolerance=tightened),
-            share=spec["share"],
-        )
+        frame = RockingFrame(column, gamma)
+        first = replace(capacity(frame, record), share=spec["share"])
         ends = [(1.0 + window) * first.over(window) for window in spec["windows"]]
-        check(np.isfinite(ends).all(), f"{record.name}: no capacity: raise capacity.highest")
-        factors = factors[factors <= (1.0 + spec["step"]) * max(ends)]
-        repeats = [
-            Capacity(factors, outcomes, share=spec["share"])
-            for outcomes in (
-                overturned_by(frame, record, factors, tolerance=0.1 * tightened),
-                overturned_by(frame, record, factors * (1.0 + NUDGE), tolerance=tightened),
-            )
-        ]
+        check(np.isfinite(ends).all(), f"{record.name}: no capacity in a window")
+        begin = first.overturned.argmax()
+        some = slice(begin, np.searchsorted(first.factors, max(ends)) + 1)
+        again, nudged = first.overturned.copy(), (1.0 + NUDGE) * first.factors[some]
+        again[some] = overturned_by(frame, record, nudged, tolerance=tightened)
+        other = replace(first, overturned=again)
         for window in spec["windows"]:
-            capacities = {one.over(window) for one in (first, *repeats)}
+            factor = first.over(window)
+            is_same = factor == other.over(window)
             yield (
                 {"record": record.name, "mass_ratio": gamma, "window": window}
-                | {"capacity": peak * first.over(window) if len(capacities) == 1 else math.nan}
+                | {"capacity": record.peak_acceleration * factor if is_same else math.nan}
             )
 
 

@@ -29,7 +29,7 @@ GROWTH = 1.001
 MAX_OVER_UPLIFT = 100.0
 """Where these factors end, over the factor of uplift."""
 
-FACTORS_PER_CALL = 1000
+FACTORS_PER_CALL = 500
 """Of these factors, from the lowest up, until all windows have a capacity."""
 
 
