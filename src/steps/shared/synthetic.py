@@ -346,7 +346,8 @@ def filtered(noise, frequency, damping):
             leaves, leaves_before = twice * leaves - squared * leaves_before, leaves
             if k == stop:
                 leaves = first
-    response[1:] /= np.sqrt(variance[1:])
+    for k in range(1, noise.size):  # an array's division takes 3 s to compile
+        response[k] /= math.sqrt(variance[k])
     return response
 
 
