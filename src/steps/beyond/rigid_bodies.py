@@ -30,6 +30,7 @@ PLANAR_JOINTS = (
 )
 OVERTURNED = math.pi / 3  # rad, from where no pulse brings a column back; the cap is still aloft
 LOOK = 20  # time steps between looks
+SHORT = 1e-3  # over p: between looks at a peak, so that its error is below 1e-6
 WAIT, REST = 14.0, 0.5  # over p: the longest wait for an outcome, and how long rest has to last
 UPRIGHT = 0.05  # inclination normalised by α
 
@@ -205,13 +206,19 @@ def motion(
     times = (np.arange(math.ceil(duration / bodies.seconds)) + 0.5) * bodies.seconds
     towards = np.array([math.cos(math.radians(direction)), math.sin(math.radians(direction))])
     pushes = -STANDARD_GRAVITY * np.outer(ground(times), towards)
-    for step, push in enumerate(pushes):
-        model.opt.gravity[:2] = push
-        mujoco.mj_step(model, data)
-        if step % look == look - 1:
-            if data.warning.number.any():
-                raise ArithmeticError(f"{bodies}: MuJoCo warns after {step} steps")
-            yield times[step], data.xmat[1:columns].reshape(-1, 3, 3).copy()
+    gravity, step = model.opt.gravity[:2], mujoco.mj_step
+    for begin in range(0, len(times) - look + 1, look):
+        some = pushes[begin : begin + look]
+        if some.any():
+            for push in some:
+                gravity[:] = push
+                step(model, data)
+        else:
+            gravity[:] = 0.0
+            step(model, data, look)
+        if data.warning.number.any():
+            raise ArithmeticError(f"{bodies}: MuJoCo warns after {begin + look} steps")
+        yield times[begin + look - 1], data.xmat[1:columns].reshape(-1, 3, 3).copy()
 
 
 def overturns(bodies: Bodies, pulse: Pulse, direction: float = 0.0) -> bool:
@@ -231,15 +238,16 @@ def overturns(bodies: Bodies, pulse: Pulse, direction: float = 0.0) -> bool:
             upright = cosine > math.cos(UPRIGHT * alpha)
             returns += upright and rest == 0
             rest = rest + 1 if upright else 0
-            if returns > 2 or rest > looks:
+            if returns > 1 or rest > looks:
                 break
     return False
 
 
 def released(bodies: Bodies, rotation: float, duration: float) -> np.ndarray:
-    """Return θ (rad) of the left of planar columns in each time step after a release at θ."""
+    """Return θ (rad) of the left of planar columns after a release at θ, each SHORT or time step."""
     duration += bodies.seconds  # as rotations are those at the beginning of a step
-    looks = motion(bodies, np.zeros_like, duration, rotation=rotation, look=1)
+    look = max(1, int(SHORT / bodies.time_step))
+    looks = motion(bodies, np.zeros_like, duration, rotation=rotation, look=look)
     return np.array([math.atan2(*turned[0, [0, 2], 2]) for _, turned in looks])
 
 
