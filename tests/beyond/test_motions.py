@@ -91,15 +91,15 @@ def test_rotations_are_peaks_over_the_slenderness(shards):
     record = sweep.models(SETTINGS)[LAST][1].record()
     ending = judge(RockingFrame(COLUMN, 1.0), record.scaled(0.3 / record.peak_velocity))
     assert found[1, 2, 0] == pytest.approx(ending.peak_rotation / COLUMN.slenderness)
-    still = sweep.Question([COLUMN.block()], np.array([9.0]))
-    assert sweep.rotations(still, record, None) == math.inf
+    still = sweep.Question([COLUMN.block()], np.array([9.0]), of_peaks=True)
+    assert sweep.answers([still], record, None) == [math.inf]
 
 
 def test_a_motion_that_leaves_the_ground_in_free_fall_is_left_out():
     still = Record(0.01, np.sin(np.arange(300) / 20.0))
     up = Record(0.01, np.where(np.arange(300) == 100, -1.1, 0.0))
     question = sweep.Question([COLUMN.block()], np.array([still.peak_velocity]))
-    assert sweep.overturned(question, still, up) == sweep.FREE_FALL
+    assert sweep.answers([question], still, up) == [sweep.FREE_FALL]
 
 
 def test_a_block_with_lower_restitution_has_the_stated_share():

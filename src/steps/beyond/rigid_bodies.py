@@ -244,7 +244,7 @@ def overturns(bodies: Bodies, pulse: Pulse, direction: float = 0.0) -> bool:
 
 
 def released(bodies: Bodies, rotation: float, duration: float) -> np.ndarray:
-    """Return θ (rad) of the left of planar columns after a release at θ, each SHORT or time step."""
+    """Return θ (rad) of the left of planar columns after a release, each SHORT or time step."""
     duration += bodies.seconds  # as rotations are those at the beginning of a step
     look = max(1, int(SHORT / bodies.time_step))
     looks = motion(bodies, np.zeros_like, duration, rotation=rotation, look=look)

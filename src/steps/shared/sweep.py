@@ -24,16 +24,14 @@ from topheavy import (
     Record,
     RockingBlock,
     RockingFrame,
-    overturned_by,
-    peak_rotations,
 )
+from topheavy.outcomes.search import cases_of, outcomes_of_factors
 
 FAMILIES = ("near-fault", "broadband")
 VERTICAL = ", with vertical acceleration"  # appended to the name of the last set
 FREE_FALL = -1  # outcome of a motion whose vertical acceleration goes beyond −1 g
 
 Settings = Mapping[str, Any]
-Outcomes = NDArray[np.int8]
 
 
 class Motion(NamedTuple):
@@ -48,6 +46,7 @@ class Question(NamedTuple):
 
     blocks: list[RockingBlock]
     velocities: NDArray[np.float64]
+    of_peaks: bool = False  # and not of what overturns
 
     def factors(self, record: Record) -> NDArray[np.float64]:
         """Return the factors that scale a motion to the velocities."""
@@ -153,18 +152,27 @@ def components(motion: Motion, settings: Settings) -> tuple[Record, Record | Non
     return record, motion.vertical().scaled_to(pga=peak)
 
 
-def overturned(question: Question, record: Record, up: Record | None) -> Outcomes:
-    """Return which velocities overturn each structure, shape (structures, velocities)."""
-    factors = question.factors(record)
+def answers(questions: Sequence[Question], record: Record, up: Record | None) -> list[NDArray[Any]]:
+    """Return for each question what overturns, or peaks, shape (structures, velocities).
+
+    A peak is that of |θ|/α, infinite where the structure overturns.
+    """
+    grids = [np.tile(one.factors(record), (len(one.blocks), 1)) for one in questions]
+    factors = np.concatenate([grid.ravel() for grid in grids])
     if up is not None and factors.max() * up.acceleration.min() <= -1.0:
-        return np.full((len(question.blocks), factors.size), FREE_FALL, np.int8)
-    return overturned_by(question.blocks, record, factors, vertical=up).astype(np.int8)
-
-
-def rotations(question: Question, record: Record, _: Record | None) -> NDArray[np.float64]:
-    """Return the peak of |θ|/α, infinite where a structure overturns, of the same shape."""
-    peaks = peak_rotations(question.blocks, record, question.factors(record)).to_numpy()
-    return np.nan_to_num(peaks / question.blocks[0].slenderness, nan=np.inf)
+        return [np.full(grid.shape, FREE_FALL, np.int8) for grid in grids]
+    blocks = [block for one in questions for block in one.blocks]
+    index = np.repeat(np.arange(len(blocks)), [row.size for grid in grids for row in grid])
+    cases = cases_of(blocks, record, (factors.min(), factors.max()), up)
+    peaks, overturned, _ = outcomes_of_factors(cases, index, factors)
+    found, ends = [], np.cumsum([grid.size for grid in grids])
+    for one, grid, end in zip(questions, grids, ends, strict=True):
+        some = slice(end - grid.size, end)
+        answer = overturned[some].astype(np.int8)
+        if one.of_peaks:
+            answer = np.nan_to_num(peaks[some] / one.blocks[0].slenderness, nan=np.inf)
+        found.append(answer.reshape(grid.shape))
+    return found
 
 
 def compute(
@@ -174,31 +182,29 @@ def compute(
     number, of = map(int, shard.split("-of-"))
     columns = {name: Column(**structures[name]) for name in settings["structures"]}
     column, spec = columns[settings["structure"]], settings["rotations"]
-    tilted = Question(frames(settings, column).blocks, np.array(spec["velocities"]))
+    tilted = Question(frames(settings, column).blocks, np.array(spec["velocities"]), of_peaks=True)
     by_name = {name: frames(settings, one) for name, one in columns.items()}
     by_name[settings["structure"]].blocks.append(compared(settings, column)[1])  # fixed mass
     arrays: dict[str, Any] = {}
     for model, motions in models(settings).items():
         count, in_set = len(motions), model in sets(settings)
         fewer = settings["fewer"] if in_set else count
-        questions = [(model, stated(settings, column), overturned, count)]
+        questions = [(model, stated(settings, column), count)]
         if not model.endswith(VERTICAL):
-            questions += [
-                (f"{model}: {name}", question, overturned, fewer)
-                for name, question in by_name.items()
-            ]
+            questions += [(f"{model}: {name}", one, fewer) for name, one in by_name.items()]
         if in_set:
             lowered = restitution_question(settings, break_even, column)
-            questions.append((f"{model}: lowered", lowered, overturned, count))
-            questions.append((f"{model}: rotations", tilted, rotations, spec["motions"]))
+            questions.append((f"{model}: lowered", lowered, count))
+            questions.append((f"{model}: rotations", tilted, spec["motions"]))
         rows: dict[str, list] = {name: [] for name, *_ in questions}
         peaks = rows[f"{model}: peaks"] = []
         for place in range(number - 1, count, of):
             record, up = components(motions[place], settings)
             peaks.append(record.peak_velocity)
-            for name, question, answer, most in questions:
-                if place < most:
-                    rows[name].append(answer(question, record, up))
+            some = [(name, one) for name, one, most in questions if place < most]
+            answered = answers([one for _, one in some], record, up)
+            for (name, _), answer in zip(some, answered, strict=True):
+                rows[name].append(answer)
         arrays |= {name: np.array(each) for name, each in rows.items()}
         print(f"{len(peaks)} motions, {model}", flush=True)
     content = BytesIO()
