@@ -243,10 +243,9 @@ def overturns(bodies: Bodies, pulse: Pulse, direction: float = 0.0) -> bool:
     return False
 
 
-def released(bodies: Bodies, rotation: float, duration: float) -> np.ndarray:
-    """Return θ (rad) of the left of planar columns after a release, each SHORT or time step."""
+def released(bodies: Bodies, rotation: float, duration: float, look: int = 1) -> np.ndarray:
+    """Return θ (rad) of the left of planar columns in each `look`-th step after a release at θ."""
     duration += bodies.seconds  # as rotations are those at the beginning of a step
-    look = max(1, int(SHORT / bodies.time_step))
     looks = motion(bodies, np.zeros_like, duration, rotation=rotation, look=look)
     return np.array([math.atan2(*turned[0, [0, 2], 2]) for _, turned in looks])
 
@@ -262,7 +261,7 @@ def rebound(bodies: Bodies, rotation: float, duration: float) -> float:
     ArithmeticError
         When there is no impact within the duration (s).
     """
-    angles = released(bodies, rotation, duration)
+    angles = released(bodies, rotation, duration, max(1, int(SHORT / bodies.time_step)))
     after = int(np.argmax(angles <= 0.0))
     if after == 0:
         raise ArithmeticError(f"no impact within {duration:.6g} s; expected one")
