@@ -60,7 +60,7 @@ study: | $(UV) ## copy studies/bent, as a repository of its own: make study DIR=
 	@cd "$(DIR)" && sed -i.old 's|"bent"|"$(NAME)"|; s|path = "../.."|path = "$(WHEEL)"|' pyproject.toml && \
 	  sed -i.old 's|../../data/records/||' config.yaml && sed -i.old 's|bent$$|$(NAME)|' README.md CITATION.cff && rm *.old
 	@$(UV) lock --quiet --project "$(DIR)"
-	@ls -A "$(DIR)" && echo "Next: cd $(DIR) && uv run snakemake --cores 2"
+	@ls -A "$(DIR)" && echo "Next: cd $(DIR) && $(abspath $(UV)) run snakemake --cores 2"
 WHEEL = wheels/topheavy-$(shell sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml)-py3-none-any.whl
 
 publish: | $(UV) ## copy the results of a run to docs/ and tests/reference/; read the diff, then commit it
