@@ -19,7 +19,7 @@ import warnings
 from collections import Counter
 from collections.abc import Callable
 from functools import partial, wraps
-from itertools import count
+from itertools import count, pairwise
 from typing import Any
 
 import numpy as np
@@ -107,8 +107,9 @@ Ends = Callable[..., free_rocking.Outcome]
 
 def decided(ends: Ends, motion: Any, end: free_rocking.Outcome) -> float:
     """Return how far peaks may differ, rad; infinite where slight changes turn the outcome."""
-    others = (ends(motion.scaled(1.0 + nudge), tolerance=TIGHT) for nudge in NUDGES)
-    return 10.0 * max(apart(end, other) for other in others)
+    others = [ends(motion.scaled(1.0 + nudge), tolerance=TIGHT) for nudge in NUDGES]
+    is_same = all(other.overturned == end.overturned for other in others)
+    return 10.0 * max(apart(*pair) for pair in pairwise(others)) if is_same else math.inf
 
 
 def apart(one: Any, two: Any) -> float:
@@ -155,11 +156,8 @@ def histories(case: Any, data: st.DataObject) -> None:
     how = {**start, "vertical": vertical, "duration": length, "samples": times}
     one, two = (follow(structure, motion, **how) for follow in (th.simulate, plain.simulate))
     assert one.overturned or one.outcome == "no uplift" or np.isfinite(one.rotation).all()
-
-    def difference(other: th.Response) -> float:
-        return np.nanmax(np.abs(other.rotation - one.rotation), initial=0.0)
-
-    if one.overturned == two.overturned and difference(two) <= CLOSE * alpha:
+    difference = np.nanmax(np.abs(two.rotation - one.rotation), initial=0.0)
+    if one.overturned == two.overturned and difference <= CLOSE * alpha:
         return
     near, how = [], how | {"tolerance": TIGHT}
     for nudge in FARTHER:  # a start may have the energy of the barrier to the last bit
@@ -168,8 +166,8 @@ def histories(case: Any, data: st.DataObject) -> None:
         near.append(th.simulate(structure, motion, **(how | begun)))
     if {other.outcome for other in near} == {one.outcome}:
         assert one.overturned == two.overturned, f"{one.outcome} and {two.outcome}"
-        slack = 10.0 * max(map(difference, near))
-        assert difference(two) <= CLOSE * alpha + slack, f"{difference(two) / alpha:.2g} α apart"
+        slack = 10.0 * np.nanmax(np.ptp([other.rotation for other in near], axis=0), initial=0.0)
+        assert difference <= CLOSE * alpha + slack, f"{difference / alpha:.2g} α apart"
 
 
 def grids(several: list[Any], data: st.DataObject) -> None:
