@@ -109,7 +109,7 @@ class Spectra:
             Band(place, weaker, stronger, *ends)
             for place in self.places(pairs)
             for weaker, stronger in pairs
-            for ends in without(self.at(stronger, place), self.at(weaker, place)).tolist()
+            for ends in without(self.at(stronger, place), self.at(weaker, place))
         ]
 
     def shares(self, weaker: tuple, stronger: tuple, of: tuple, every: int) -> tuple[float, float]:
@@ -136,14 +136,18 @@ def overlap(first: np.ndarray, second: np.ndarray) -> float:
     return float(np.maximum(high - low, 0.0).sum())
 
 
-def without(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def without(first: np.ndarray, second: np.ndarray) -> list[tuple[float, float]]:
     """Return the part of a set that is not in another; adjacent pieces are not merged."""
-    if not len(first):
-        return first
-    ends = np.unique(np.concatenate([first.ravel(), second.ravel()]))
-    pieces = np.column_stack([ends[:-1], ends[1:]])
-    middles = pieces.mean(axis=1)
-    return pieces[inside(first, middles) & ~inside(second, middles)]
+    pieces, others = [], second.tolist()
+    for low, high in first.tolist():
+        for begin, end in others:
+            if end > low and begin < high:
+                if begin > low:
+                    pieces.append((low, begin))
+                low = end
+        if low < high:
+            pieces.append((low, high))
+    return pieces
 
 
 def inside(intervals: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:

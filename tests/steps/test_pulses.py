@@ -88,7 +88,7 @@ def test_sets_of_amplitudes():
     first, second = np.array([[1.0, 3.0], [4.0, 5.0]]), np.array([[2.0, 4.5]])
     assert spectra.length(first) == 3.0
     assert spectra.overlap(first, second) == 1.5
-    assert spectra.without(first, second).tolist() == [[1.0, 2.0], [4.5, 5.0]]
+    assert spectra.without(first, second) == [(1.0, 2.0), (4.5, 5.0)]
     assert spectra.inside(second, np.array([1.9, 2.1])).tolist() == [False, True]
 
 

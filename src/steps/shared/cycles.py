@@ -6,7 +6,7 @@ below every amplitude that overturns the lighter one, by the search.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import combinations, pairwise, product
 from typing import Any
 
@@ -28,30 +28,41 @@ def minima(settings: Mapping[str, Any]) -> pd.DataFrame:
     """Return for each structure and pulse the lowest amplitude, over g tan α, that overturns.
 
     `minimum` is that of all intervals that the search finds, `wide_minimum` and `wide_upper` are
-    the ends of the lowest wide one; they are infinite where there is none.
+    the ends of the lowest wide one; they are infinite where there is none. A search in steps as
+    wide finds every wide interval. Where the minimum falls by it, all structures are searched in
+    narrower steps.
     """
-    spec, rows = settings["cycles"], []
+    spec = settings["cycles"]
     ratios = map(float, grid(spec["frequency_ratios"]))
-    places = product(spec["numbers"], settings["slendernesses"], ratios, settings["mass_ratios"])
-    lines = [
-        (dict(zip([*PLACE, "mass_ratio"], at, strict=True)), one_line(*at)) for at in [*places]
-    ]
-    for begin in range(0, len(lines), TOGETHER):
-        labels, searched = zip(*lines[begin : begin + TOGETHER], strict=True)
-        blocks, pulses = zip(*searched, strict=True)
+    places = [*product(spec["numbers"], settings["slendernesses"], ratios)]
+    pairs = [*combinations(settings["mass_ratios"], 2)]
+    table = searched(places, settings, spec["wide"])
+    fell = falls(table, pairs)[PLACE].drop_duplicates()
+    finely = searched([*fell.itertuples(index=False, name=None)], settings, spec["resolution"])
+    keys = [*PLACE, "mass_ratio"]
+    table = pd.concat([table, finely]).drop_duplicates(keys, keep="last").sort_values(keys)
+    check_falls(falls(table, pairs))
+    return table
+
+
+def searched(places: Sequence[tuple], settings: Mapping[str, Any], step: float) -> pd.DataFrame:
+    """Return a row for each structure at each place, searched in steps of one width."""
+    spec, rows = settings["cycles"], []
+    labels = [(*place, gamma) for place in places for gamma in settings["mass_ratios"]]
+    for begin in range(0, len(labels), TOGETHER):
+        some = labels[begin : begin + TOGETHER]
+        blocks, pulses = zip(*(one_line(*at) for at in some), strict=True)
         every = intervals_of_many(
-            blocks, pulses, (1.0, spec["highest"]), resolution=spec["resolution"], most_impacts=0
+            blocks, pulses, (1.0, spec["highest"]), resolution=step, most_impacts=0
         )
-        for at, intervals in zip(labels, every, strict=True):
+        for at, intervals in zip(some, every, strict=True):
             ends = [(one.lower[1], one.upper[0] if one.upper else math.inf) for one in intervals]
             wide = [(low, high) for low, high in ends if high - low >= spec["wide"]]
-            rows.append(at | {"minimum": min([low for low, _ in ends], default=math.inf)})
-            both = wide[0] if wide else (math.inf, math.inf)
-            rows[-1] |= dict(zip(("wide_minimum", "wide_upper"), both, strict=True))
-        print(f"{begin + len(labels)} of {len(lines)} lines of several cycles", flush=True)
-    table = pd.DataFrame(rows)
-    check_falls(falls(table, [*combinations(settings["mass_ratios"], 2)]))
-    return table
+            lowest = min((low for low, _ in ends), default=math.inf)
+            rows.append((*at, lowest, *(wide[0] if wide else (math.inf, math.inf))))
+        print(f"{begin + len(some)} of {len(labels)} lines of several cycles", flush=True)
+    names = [*PLACE, "mass_ratio", "minimum", "wide_minimum", "wide_upper"]
+    return pd.DataFrame(rows, columns=names)
 
 
 def one_line(cycles: int, slenderness: float, ratio: float, gamma: float) -> tuple:
