@@ -40,7 +40,8 @@ def minima(settings: Mapping[str, Any]) -> pd.DataFrame:
     fell = falls(table, pairs)[PLACE].drop_duplicates()
     finely = searched([*fell.itertuples(index=False, name=None)], settings, spec["resolution"])
     keys = [*PLACE, "mass_ratio"]
-    table = pd.concat([table, finely]).drop_duplicates(keys, keep="last").sort_values(keys)
+    table = pd.concat([table, finely.astype(table.dtypes)])
+    table = table.drop_duplicates(keys, keep="last").sort_values(keys)
     check_falls(falls(table, pairs))
     return table
 
