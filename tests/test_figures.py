@@ -19,16 +19,14 @@ from matplotlib import collections
 from matplotlib.colors import to_hex
 from matplotlib.text import Annotation
 
-from replication.config import read_yaml
 from replication.drawing import shades
-from tests.cases import ROOT
+from tests.cases import CONFIG, ROOT
 
 INK, GREY, WHITE = "#1a1a1a", "#737373", "#ffffff"
 OVERTURNS, SURVIVES, PREVENTED, CAUSED = "#c8501a", "#12715f", "#c79a0a", "#a3195b"
 MODEL, FIXED = "#6a3d9a", "#8c6d00"
 LIGHT, MIDDLE, DARK = (to_hex(colour) for colour in shades(3))  # the column, γ = 1 and γ → ∞
 BOTH, AT_ONCE, ROCKS = "#f1d3c6", "#db8d6a", "#d0e3df"  # areas
-CONFIG = read_yaml(ROOT / "config/config.yaml")
 SPECTRA_COLOURS = {0.0: LIGHT, 1.0: MIDDLE, math.inf: DARK}
 
 

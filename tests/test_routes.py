@@ -98,59 +98,7 @@ def test_history_is_that_of_the_plain_solver(case):
     assert np.all(apart[known] <= 1e-6 * block.slenderness + 2 * decided[known])
 
 
-# ---------------------------------------------------------------------------- the closed form
-
-
-def random_cases(number):
-    """Linear blocks, pulses and starts."""
-    random = np.random.default_rng(1963)
-    for index in range(number):
-        p, alpha = random.uniform(0.5, 4.0), random.uniform(0.05, 0.4)
-        block = th.RockingBlock(p, alpha, random.uniform(0.6, 0.98), linearised=True)
-        strength = alpha * random.uniform(1.02, 4.0) * random.choice([-1, 1])
-        pulse = th.Pulse(ELEMENTARY[index % 5], strength, p * random.uniform(2.0, 8.0))
-        start = np.array([0.5, 0.3 * p]) * alpha * random.uniform(-1.0, 1.0, 2) * (index % 3 == 0)
-        duration = random.uniform(1, 3) * 2 * math.pi / pulse.angular_frequency
-        duration = duration if pulse.shape == "harmonic" else pulse.duration
-        yield block, pulse, dict(zip(("rotation", "velocity"), start, strict=True)), duration
-
-
-def train(impacts, p):
-    """How many impacts come before the first train of bounces, whose members count for nothing."""
-    short = np.flatnonzero(np.diff(impacts) < 1e-2 / p)
-    return int(short[0]) + 1 if len(short) else len(impacts)
-
-
-def alike(block, excitation, **options):
-    found, exact = (solve(block, excitation, **options) for solve in (th.simulate, closed))
-    p, alpha = block.frequency_parameter, block.slenderness
-    assert found.overturned == exact.overturned
-    assert (found.outcome == "no uplift") == (exact.outcome == "no uplift")
-    peak = pytest.approx(exact.peak_rotation, rel=0, abs=1e-7 * alpha, nan_ok=True)
-    assert found.peak_rotation == peak
-    number = min(train(found.impact_times, p), train(exact.impact_times, p))
-    np.testing.assert_allclose(
-        found.impact_times[:number], exact.impact_times[:number], atol=1e-6 / p
-    )
-    if exact.overturned and number == len(exact.impact_times):
-        assert found.number_of_impacts == exact.number_of_impacts
-    return found, exact
-
-
-@pytest.mark.parametrize(
-    ("block", "pulse", "start", "duration"), list(random_cases(25)), ids=[*map(str, range(25))]
-)
-def test_solver_agrees_with_the_closed_form_under_pulses(block, pulse, start, duration):
-    times = np.linspace(0.0, duration, 60)
-    options = {} if pulse.shape != "harmonic" else {"duration": duration}
-    found, exact = alike(block, pulse, **start, **options, samples=times)
-    known = np.isfinite(found.rotation + exact.rotation)
-    p, alpha = block.frequency_parameter, block.slenderness
-    np.testing.assert_allclose(found.rotation[known], exact.rotation[known], atol=1e-6 * alpha)
-    impacts = np.concatenate([exact.impact_times, [math.inf]])
-    clear = known & (np.abs(times[:, None] - impacts).min(axis=1) > 1e-3 / p)
-    rates = found.velocity[clear], exact.velocity[clear]
-    np.testing.assert_allclose(*rates, atol=1e-5 * alpha * p)
+# ---------------------------------------------------------------------------- extremes
 
 
 @pytest.mark.sampled(5)

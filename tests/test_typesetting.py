@@ -9,11 +9,9 @@ import pytest
 
 from documents import check
 from documents.typeset import checked, texts_of
-from replication.config import read_yaml
-from tests.cases import ROOT, published
+from tests.cases import CONFIG, ROOT, published
 
 DOCUMENTS = {name: f"paper/{name}.typ" for name in ("report", "supplement")}
-CONFIG = read_yaml(str(ROOT / "config/config.yaml"))
 
 
 @pytest.fixture(scope="module")

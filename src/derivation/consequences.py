@@ -45,15 +45,12 @@ def follows_if_a_column_weighs(share: sp.Expr) -> bool:
     """Whether γ = m_b/2m_c gives the factor of Eq. (19) if one column has this share of m_c."""
     masses = {m_c: share * m_c, I_o: sp.Rational(4, 3) * share * m_c * R**2, m_b: 2 * gamma * m_c}
     factor = (1 + 2 * gamma) / (1 + 3 * gamma)
-    return all(
-        is_identically_zero(
-            (frame_motion(side)[acceleration] - factor * column_motion(side)).subs(
-                masses, simultaneous=True
-            ),
-            side,
-        )
-        for side in SIDES
-    )
+
+    def apart(side: Side) -> sp.Expr:
+        motion = frame_motion(side)[acceleration] - factor * column_motion(side)
+        return motion.subs(masses, simultaneous=True)
+
+    return vanishes(apart)
 
 
 def m_c_is_the_mass_of_each_column() -> bool:
@@ -93,10 +90,7 @@ def quadratic_terms_cancel() -> bool:
 
 def lagrange_agrees() -> bool:
     """Energies alone give the same equation of motion as the equilibrium of the three bodies."""
-    return all(
-        is_identically_zero(equation_of_motion(side).rhs - lagrange_equation(side).rhs, side)
-        for side in SIDES
-    )
+    return vanishes(lambda side: equation_of_motion(side).rhs - lagrange_equation(side).rhs)
 
 
 def frame_rocks_as_a_column() -> bool:
@@ -124,25 +118,21 @@ def frame_uplifts_with_its_column() -> bool:
 
 def energy_is_conserved_between_impacts() -> bool:
     """Over resting ground the kinetic and potential energies of the frame add up to a constant."""
-    return all(
-        is_identically_zero(
-            side.time_derivative(kinetic_energy(side) + potential_energy(side))
-            .subs(frame_motion(side))
-            .subs(_AT_REST),
-            side,
-        )
-        for side in SIDES
-    )
+
+    def change(side: Side) -> sp.Expr:
+        total = side.time_derivative(kinetic_energy(side) + potential_energy(side))
+        return total.subs(frame_motion(side)).subs(_AT_REST)
+
+    return vanishes(change)
 
 
 def restoring_moment_falls() -> bool:
     """The column's restoring moment is mgR sin(α − |θ|): mgR sin α at θ = 0, zero at |θ| = α."""
-    return all(
-        is_identically_zero(
-            I_o * column_motion(side).subs(_AT_REST) + side.sign * m_c * g * R * sp.sin(side.lean),
-            side,
+    stated = m_c * g * R
+    return vanishes(
+        lambda side: (
+            I_o * column_motion(side).subs(_AT_REST) + side.sign * stated * sp.sin(side.lean)
         )
-        for side in SIDES
     )
 
 
@@ -229,15 +219,12 @@ def base_shear_grows_after_uplift() -> bool:
     V is the base shear of both columns, W the weight; for ü_g < 0 both terms change their signs. A
     rigid frame that is held against uplift has n = 1. So the shear continues at uplift.
     """
-    return all(
-        is_identically_zero(
-            after_uplift(side)
-            + side.sign * sp.tan(alpha)
-            - slope() * (ground_acceleration / g + side.sign * sp.tan(alpha)),
-            side,
-        )
-        for side in SIDES
-    )
+
+    def apart(side: Side) -> sp.Expr:
+        level = side.sign * sp.tan(alpha)
+        return after_uplift(side) + level - slope() * (ground_acceleration / g + level)
+
+    return vanishes(apart)
 
 
 def heavy_cap_beam_nearly_caps_the_base_shear() -> bool:

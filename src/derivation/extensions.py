@@ -52,32 +52,20 @@ def size_only_slows_time() -> bool:
 
 def columns_count_only_in_the_mass_ratio() -> bool:
     """A cap beam on N columns obeys Eqs. (23) and (24), in which N does not occur."""
-    return all(
-        is_identically_zero(frame_of_columns(side) - printed_motion(side), side) for side in SIDES
-    )
+    return vanishes(lambda side: frame_of_columns(side) - printed_motion(side))
 
 
 def impacts_do_not_count_the_columns() -> bool:
     """√r of a cap beam on N columns is that of Eq. (25), with γ = m_b/(N m_c)."""
-    return all(
-        is_identically_zero(
-            restitution_of_columns(side).subs(RECTANGULAR) - restitution(), POSITIVE
-        )
-        for side in SIDES
-    )
+    return vanishes(lambda side: restitution_of_columns(side).subs(RECTANGULAR) - restitution())
 
 
 def vertical_acceleration_is_a_change_of_gravity_and_push() -> bool:
     """θ̈ = (1 + v̈_g/g) times that over ground with ü_g/(1 + v̈_g/g) and no vertical motion."""
     share = 1 + vertical_acceleration / g
-    return all(
-        is_identically_zero(
-            frame_of_columns(side)
-            - share
-            * equation_of_motion(side).rhs.subs(ground_acceleration, ground_acceleration / share),
-            side,
-        )
-        for side in SIDES
+    push = {ground_acceleration: ground_acceleration / share}
+    return vanishes(
+        lambda side: frame_of_columns(side) - share * equation_of_motion(side).rhs.subs(push)
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -183,3 +183,8 @@ def is_identically_zero(expression: Any, side: Side) -> bool:
     sines = independent.replace(sp.tan, lambda angle: sp.sin(angle) / sp.cos(angle))
     plain = sp.expand_power_base(sines)
     return not CircleField([plain]).fraction(plain)[0]
+
+
+def vanishes(expression: Callable[[Side], Any]) -> bool:
+    """Whether an expression is identically zero for θ < 0 and for θ > 0."""
+    return all(is_identically_zero(expression(side), side) for side in SIDES)

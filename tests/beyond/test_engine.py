@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.stats import binom, norm
 
 import topheavy as th
 from steps.beyond import engine, gaps, test_plan
@@ -198,8 +199,14 @@ def test_a_gap_lets_the_trilith_rock_where_whole_contacts_do_not():
     assert whole < 0.01 < 1.0 < min(open_one, other) < max(open_one, other) < 5.0
 
 
-def test_repeats_are_the_fewest_whose_majority_is_right():
-    assert [test_plan.repeats(right, 0.05) for right in (0.96, 0.9, 0.8)] == [1, 3, 7]
+def test_repeats_are_those_of_minima_that_scatter_about_both():
+    settings = CONFIG["test_plan"] | {"reductions": [], "scatters": [0.05, 0.1, 0.2]}
+    for row in test_plan.compute(settings).itertuples():
+        falls = norm.cdf(math.log(row.pulse / row.minimum_of_column) / row.scatter)
+        stands = norm.cdf(math.log(row.minimum_of_other / row.pulse) / row.scatter)
+        assert falls == pytest.approx(stands)
+        wrong = [binom.cdf(n // 2, n, falls) for n in (row.repeats, row.repeats - 2) if n > 0]
+        assert wrong[0] <= settings["risk"] < min([*wrong[1:], 1.0])
 
 
 def test_column_survives_the_pulse_from_the_stated_reduction_on():

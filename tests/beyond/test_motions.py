@@ -341,6 +341,15 @@ def test_capacity_that_one_outcome_moves_is_not_decided(monkeypatch):
     assert narrow["capacity"] == pytest.approx(0.2 * 1.001**301)
 
 
+def test_outcome_that_a_tighter_tolerance_changes_is_not_known(monkeypatch):
+    def tolerant(frame, record, factors, tolerance=None):
+        return factors > (1.0 if tolerance is None else 2.0)
+
+    monkeypatch.setattr(records, "overturned_by", tolerant)
+    known = records.overturned(COLUMN, Record(0.01, [0.1, 0.2]), np.array([0.5, 1.5, 2.5]), 1e-13)
+    assert known.tolist() == [-1, 0, 1]
+
+
 def test_outcomes_that_a_nudge_changes_are_not_known():
     record = Record(0.01, np.sin(np.arange(200) / 20.0))
     edge = plain.beside_a_boundary(lambda f: judge(COLUMN, record.scaled(f)).overturned, 0.3)

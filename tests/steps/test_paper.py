@@ -5,14 +5,16 @@ from ast import literal_eval
 from functools import cache
 from types import SimpleNamespace
 
+import numpy as np
 import pandas as pd
 import pytest
 
 from documents.check import REFERENCE
 from replication.step import call
 from steps import allen, equations, parameters, statements, trilith, verification
+from steps.shared import plain
 from tests.cases import COLUMN, CONFIG, RECORDS, ROOT, as_written, broken
-from topheavy import Column, RockingFrame, judge
+from topheavy import Column, RockingFrame, judge, simulate
 
 STEPS = {
     step.__name__.removeprefix("steps."): step
@@ -225,3 +227,22 @@ def test_boundary_is_the_nearest(monkeypatch):
     monkeypatch.setattr(verification, "overturning_intervals", lambda *_, **__: ends)
     for near, nearest in ((0.3, 0.30205), (0.291, 0.29005)):
         assert verification.boundary("half_sine_linear", near) == pytest.approx(nearest)
+
+
+def test_late_peak_is_that_of_the_last_quarter(monkeypatch):
+    monkeypatch.setattr(plain, "simulate", simulate)  # compared elsewhere
+    frame = RockingFrame(Column(0.11, 0.40), 0.434)
+    rows, history = trilith.starts(frame, CONFIG["trilith"], CONFIG["solver"]["tightened"])
+    late = history["time"] > 0.75 * CONFIG["trilith"]["duration"]
+    largest = np.abs(history["abrupt"][late]).max()
+    assert rows[-1]["late_peak_over_alpha"] == pytest.approx(largest)
+    assert rows[-1]["peak_over_alpha"] > 1.01 * largest
+
+
+def test_table_motion_is_the_second_derivative_of_its_displacement():
+    motion, omega, step = trilith.table_motion(0.005, 3.3), 2 * math.pi * 3.3, 1e-4
+    times = np.linspace(0.01, 1.0, 57)
+    before, now, after = (0.005 * np.sin(omega * (times + k * step)) for k in (-1, 0, 1))
+    expected = (before - 2 * now + after) / step**2 / 9.81
+    np.testing.assert_allclose(motion.excitation(times), expected, atol=1e-6)
+    assert motion.duration == math.inf

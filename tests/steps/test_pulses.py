@@ -374,6 +374,15 @@ def test_arcs_hold_both_sides_of_each_impact():
     assert ratios == pytest.approx(BENT.restitution, rel=1e-6)
 
 
+def test_base_shear_after_uplift_rises_from_that_level_by_the_known_slope():
+    settings = CONFIG["uplift"] | {"shapes": ["one-sine"], "mass_ratios": [0.0, 1.0, 4.0]}
+    settings |= {"frequency_ratios": {"lowest": 8.0, "highest": 8.0, "points": 1}, "sample": 0}
+    for row in uplift.compute(settings, SIZES):
+        beyond = row["peak_acceleration"] - 1 / 6  # tan α
+        slope = {0.0: 0.270270, 1.0: 0.179054, 4.0: 0.090644}[row["mass_ratio"]]
+        assert row["shear_after_uplift"] == pytest.approx(1 / 6 + slope * beyond, rel=1e-5)
+
+
 def test_findings_of_uplift():
     table = as_written({"table": uplift.compute(UPLIFT, SIZES)})["table"]
     both = {"uplift_limits_forces", "uplift_is_beneficial"}
