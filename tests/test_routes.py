@@ -98,6 +98,12 @@ def test_history_is_that_of_the_plain_solver(case):
     assert np.all(apart[known] <= 1e-6 * block.slenderness + 2 * decided[known])
 
 
+def test_closed_form_is_the_history_of_the_kernel_under_a_record():
+    times, record = np.linspace(0.0, 4.0, 60), th.Record(0.1, 0.3 * np.sin(np.arange(40.0) / 2.0))
+    found, exact = (solve(BLOCK.linear(), record, samples=times) for solve in (th.simulate, closed))
+    np.testing.assert_allclose(found.rotation, exact.rotation, rtol=0, atol=1e-6)
+
+
 # ---------------------------------------------------------------------------- extremes
 
 
