@@ -34,8 +34,9 @@ from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.shapes import FINITE_SHAPES
 
-#: Cases of a property in its turn, and s of the processor for one.
-TURN, LONGEST = 25, 60.0
+#: Cases of a property in its turn, s of the processor for one (a search that ends without a proof
+#: takes 60), and how far seeds of turns are apart, so that neighbouring seeds have other cases.
+TURN, LONGEST, APART = 25, 300.0, 1000
 #: Relative changes of a motion that leave a decided outcome, and what a peak may then differ, α.
 NUDGES, CLOSE = (-1e-6, -1e-8, 1e-8, 1e-6), 1e-6
 FARTHER = (*NUDGES, -1e-5, 1e-5)
@@ -262,7 +263,7 @@ def main(minutes: float, first: int) -> int:
     warnings.simplefilter("error")
     warnings.filterwarnings("ignore", message="record: ")  # no plausible ground motion
     warnings.filterwarnings("ignore", message="no proof within")  # the outcome is then undecided
-    for number, held in ((number, held) for number in count(first) for held in PROPERTIES):
+    for number, held in ((number, held) for number in count(first, APART) for held in PROPERTIES):
         if time.monotonic() > end and cases[held.__name__]:
             break
         try:
