@@ -10,13 +10,7 @@ import pandas as pd
 from replication.step import check, run, truth
 from steps.beyond.rigid_bodies import Bodies, overturns, rebound
 from steps.shared.cases import HIGHEST, cap_of, lowest, pulse_on
-from topheavy import (
-    Column,
-    FixedMassColumn,
-    RockingFrame,
-    judge,
-    simulate,
-)
+from topheavy import Column, FixedMassColumn, RockingFrame, judge, simulate
 
 CLOSE = 0.005  # of √r: agreement with Eq. (25)
 NO_REBOUND = 0.2  # coefficient of restitution of a point, below which a contact has no rebound

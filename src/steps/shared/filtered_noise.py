@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import irfft, rfft, rfftfreq
 
-from steps.shared.synthetic import TIME_STEP, Vector, between_zeros, modulation
+from steps.shared.synthetic import TIME_STEP, Vector, between_zeros, generator, modulation
 from topheavy import Record
 
 DAMPING = 0.6
@@ -56,7 +56,7 @@ def envelope(time: Vector) -> Vector:
 
 def motion(seed: int, number: int, soil: Soil) -> Record:
     """Return motion `number`, which depends on nothing else: of unit intensity, to be scaled."""
-    rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
+    rng = generator(seed, number)
     size = round(DURATION / TIME_STEP)
     time, frequency = np.arange(size) * TIME_STEP, rfftfreq(size, TIME_STEP)
     gains = np.sqrt(density_of_soil(frequency / soil.frequency))

@@ -17,14 +17,7 @@ from numpy.typing import NDArray
 
 from replication.step import geometric, run
 from steps.shared import filtered_noise, synthetic
-from topheavy import (
-    STANDARD_GRAVITY,
-    Column,
-    FixedMassColumn,
-    Record,
-    RockingBlock,
-    RockingFrame,
-)
+from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn, Record, RockingBlock, RockingFrame
 from topheavy.outcomes.search import cases_of, outcomes_of_factors
 
 FAMILIES = ("near-fault", "broadband")

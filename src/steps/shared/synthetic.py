@@ -194,16 +194,13 @@ WITH_PULSE = Model(
 # fmt: on
 
 
-def parameters(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> dict[str, float]:
-    """Return what was drawn for one motion, by the names in PULSE and NOISE, and its envelope."""
-    return _draw(_generator(seed, number), scenario, WITH_PULSE if pulse else WITHOUT_PULSE)
-
-
-def _generator(seed: int, number: int) -> np.random.Generator:
+def generator(seed: int, number: int) -> np.random.Generator:
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
 
 
-def _draw(rng: np.random.Generator, scenario: Scenario, model: Model) -> dict[str, float]:
+def parameters(rng: np.random.Generator, scenario: Scenario, pulse: bool) -> dict[str, float]:
+    """Return what is drawn for one motion, by the names in PULSE and NOISE, and its envelope."""
+    model = WITH_PULSE if pulse else WITHOUT_PULSE
     means, factor = model.coefficients @ scenario.regressors(), model.factor()
     while True:
         errors = factor @ rng.standard_normal(len(means))
@@ -282,8 +279,8 @@ def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record
     another scenario gives the same noise, filtered otherwise. Without a pulse it is the stronger
     of the two horizontal components, with a pulse the one that holds it.
     """
-    rng = _generator(seed, number)
-    drawn = _draw(rng, scenario, WITH_PULSE if pulse else WITHOUT_PULSE)
+    rng = generator(seed, number)
+    drawn = parameters(rng, scenario, pulse)
     time = np.arange(math.ceil(2.5 * (drawn["D0_5"] + drawn["D5_95"]) / TIME_STEP)) * TIME_STEP
     noise = filtered(rng.standard_normal(time.size), frequency(time, drawn), drawn["damping"])
     corner = 10.0 ** (1.4071 - 0.3452 * scenario.magnitude)  # Hz [4, 5]
