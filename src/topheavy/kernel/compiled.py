@@ -67,16 +67,15 @@ def compiled(function: Any = None, **options: Any) -> Any:
 
     numba takes an option that is not given from the function that calls first: the last bits would
     depend on what was compiled before. Hence all options have a value here. Without `_nrt` numba
-    does not count references to arrays, which would take a tenth of the time of a history. Wrappers
-    for Python would take a fifth of the time of the compilation: a function has one if it is asked
-    for, and another one, which is not kept, is compiled where Python calls it all the same.
+    does not count references to arrays, which would take a tenth of the time of a history. A
+    function that is always inlined has no wrapper for Python, unless one is asked for.
     """
     if function is None:
         return lambda function: compiled(function, **options)
     defaults: Any = {"error_model": "numpy", "fastmath": False, "forceinline": False, "_nrt": False}
-    options = defaults | {"no_cfunc_wrapper": True, "no_cpython_wrapper": True} | options
+    wrappers = {"no_cfunc_wrapper": True, "no_cpython_wrapper": "forceinline" in options}
     config: Any = numba.config
-    dispatcher, before = numba.njit(**options)(function), config.CACHE_DIR
+    dispatcher, before = numba.njit(**defaults | wrappers | options)(function), config.CACHE_DIR
     template = dispatcher.get_call_template
 
     def call_template(arguments: Any, keywords: Any) -> Any:
@@ -84,10 +83,6 @@ def compiled(function: Any = None, **options: Any) -> Any:
         return template(tuple(map(types.unliteral, arguments)), keywords)
 
     dispatcher.get_call_template = call_template
-    if options["no_cpython_wrapper"]:
-        called = numba.njit(**options | {"no_cpython_wrapper": False})(function)
-        dispatcher._insert = lambda *_: None  # numba's table of what Python may call
-        dispatcher._compile_for_args = lambda *_, **__: called
     if FOLDER is None:
         return dispatcher
     config.CACHE_DIR = str(FOLDER)  # numba reads it as it enables the cache of a function

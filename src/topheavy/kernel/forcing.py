@@ -97,7 +97,7 @@ def record_waveform(samples: Array, vertical: Array | None = None, ratio: float 
     return Waveform(RECORD, 0.0, prepare_record(samples, vertical, ratio))
 
 
-@compiled(no_cpython_wrapper=False)
+@compiled
 def forcing_of(waveform, scale, amplitude, vertical_factor):
     """Return the `Forcing` of a pulse with ω/p = `scale`, or of a record with p Δt = `scale`."""
     wave, last_phase, record = waveform
@@ -167,13 +167,13 @@ def piece_of(forcing, time):
     return low
 
 
-@compiled(forceinline=True)
+@compiled(forceinline=True, no_cpython_wrapper=False)
 def piece_start(forcing, piece):
     """Return when a piece of a record begins."""
     return forcing.record[TIME, piece] * forcing.step
 
 
-@compiled(forceinline=True)
+@compiled(forceinline=True, no_cpython_wrapper=False)
 def ground_of_piece(forcing, piece):
     """Return a, a', G and G' where a piece of a record begins."""
     record, amplitude, vertical = forcing.record, forcing.amplitude, forcing.vertical_factor

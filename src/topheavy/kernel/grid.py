@@ -131,7 +131,7 @@ def outcomes_of(
     return results
 
 
-@compiled(nogil=True, no_cpython_wrapper=False)
+@compiled(nogil=True)
 def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results):
     """Fill the results from the first cell to the one before the last; stop where one is given up.
 

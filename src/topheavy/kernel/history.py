@@ -123,7 +123,7 @@ def judge(w, method, block, forcing):
     return History(motion.state.time, UNRESOLVED, motion.peak, motion.impacts, motion.impacts)
 
 
-@compiled(nogil=True, no_cpython_wrapper=False)
+@compiled(nogil=True)
 def sample(w, method, block, forcing, rotation, velocity, until, samples):
     """Follow a block, fill the samples and return its `History`.
 
@@ -327,7 +327,7 @@ def at_time(state, time):
     return State(time, side, rotation, velocity, sine, cosine, push, rate, gravity, change)
 
 
-@compiled(no_cpython_wrapper=False)
+@compiled
 def is_straight(wave):
     """Return whether a and G are straight lines over each step."""
     return wave in (RECORD, CONSTANT, NONE)

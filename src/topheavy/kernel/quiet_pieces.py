@@ -70,7 +70,7 @@ def powers(h):
     return h, h2, h3, h4, h5, h6, h6 * h * INVERSE[7]
 
 
-@compiled(fastmath={"contract"}, forceinline=True)
+@compiled(fastmath={"contract"}, forceinline=True, no_cpython_wrapper=False)
 def short_series(h, force, slope, force_rate, slope_rate, velocity, rotation, peak, bound):
     """Return whether a piece is proven to hold nothing, and by how much φ and φ' change in it.
 
