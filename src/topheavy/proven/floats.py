@@ -100,9 +100,9 @@ class Floats:
             return x
         s, c, v = [math.sin(self.alpha - phi)], [math.cos(self.alpha - phi)], [rate]
         for k in range(n - 1):
-            pushed = sum(push[j] * c[k - j] for j in range(k + 1))
+            pushed = math.fsum(push[j] * c[k - j] for j in range(k + 1))
             x.append(-kappa_squared * (s[k] + pushed) / ((k + 1) * (k + 2)))
-            s.append(-sum(v[j] * c[k - j] for j in range(k + 1)) / (k + 1))
-            c.append(sum(v[j] * s[k - j] for j in range(k + 1)) / (k + 1))
+            s.append(-math.fsum(v[j] * c[k - j] for j in range(k + 1)) / (k + 1))
+            c.append(math.fsum(v[j] * s[k - j] for j in range(k + 1)) / (k + 1))
             v.append((k + 2) * x[k + 2])
         return x
