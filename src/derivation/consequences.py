@@ -31,7 +31,31 @@ from derivation.mechanics import (
     tangent_form,
     uplift_acceleration,
 )
-from derivation.notation import *
+from derivation.notation import (
+    NEGATIVE,
+    POSITIVE,
+    SIDES,
+    F_x1,
+    F_x2,
+    F_z1,
+    F_z2,
+    I_o,
+    R,
+    Side,
+    acceleration,
+    alpha,
+    g,
+    gamma,
+    ground_acceleration,
+    ground_velocity,
+    half_depth,
+    is_identically_zero,
+    m_b,
+    m_c,
+    read,
+    vanishes,
+    velocity,
+)
 from derivation.printed import EQUATIONS, frame
 
 _AT_REST = {ground_velocity: 0, ground_acceleration: 0}

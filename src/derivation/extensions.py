@@ -19,7 +19,24 @@ from derivation.mechanics import (
     restitution_of_columns,
     size_ratio,
 )
-from derivation.notation import *
+from derivation.notation import (
+    SIDES,
+    R,
+    Side,
+    alpha,
+    b,
+    g,
+    gamma,
+    ground_acceleration,
+    h,
+    half_depth,
+    is_identically_zero,
+    m_b,
+    m_c,
+    vanishes,
+    velocity,
+    vertical_acceleration,
+)
 
 _k = sp.Symbol("k", positive=True)
 

@@ -24,7 +24,25 @@ from derivation.mechanics import (
     solved,
     uplift_acceleration,
 )
-from derivation.notation import *
+from derivation.notation import (
+    NEGATIVE,
+    POSITIVE,
+    SIDES,
+    I_o,
+    R,
+    Side,
+    acceleration,
+    alpha,
+    g,
+    gamma,
+    ground_acceleration,
+    half_depth,
+    is_identically_zero,
+    m_c,
+    velocity_after,
+    velocity_before,
+    vertical_acceleration,
+)
 
 I_b = sp.Symbol("I_b", positive=True)
 _CAP = gamma * m_c

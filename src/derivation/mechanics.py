@@ -13,7 +13,34 @@ from typing import Any, NamedTuple
 
 import sympy as sp
 
-from derivation.notation import *
+from derivation.notation import (
+    NEGATIVE,
+    POSITIVE,
+    CircleField,
+    F_x1,
+    F_x2,
+    F_z1,
+    F_z2,
+    I_o,
+    N,
+    R,
+    Side,
+    acceleration,
+    alpha,
+    b,
+    g,
+    gamma,
+    ground_acceleration,
+    ground_velocity,
+    h,
+    m,
+    m_b,
+    m_c,
+    velocity,
+    velocity_after,
+    velocity_before,
+    vertical_acceleration,
+)
 
 OF_TWO = {N: 2, vertical_acceleration: 0}
 """The paper's frame."""

@@ -20,7 +20,31 @@ from typing import TypeAlias
 import sympy as sp
 
 from derivation import mechanics
-from derivation.notation import *
+from derivation.notation import (
+    NEGATIVE,
+    POSITIVE,
+    SIDES,
+    F_x1,
+    F_x2,
+    F_z1,
+    I_o,
+    R,
+    Side,
+    acceleration,
+    alpha,
+    g,
+    gamma,
+    ground_acceleration,
+    ground_velocity,
+    is_identically_zero,
+    m,
+    m_b,
+    m_c,
+    read,
+    velocity,
+    velocity_after,
+    velocity_before,
+)
 
 Values: TypeAlias = dict[sp.Symbol, sp.Expr]
 Premises: TypeAlias = Callable[[Side], Values]
