@@ -159,10 +159,6 @@ rule all:
         "All results are there"
 
 
-# On a cluster, only the shards are worth a job.
-workflow.localrules(*(r.name for r in workflow.rules if not r.name.endswith("_shard")))
-
-
 def last_lines():
     """Print verdicts, faults and where results lie, if this run has come so far."""
     log = Path("results/logs/expected.log")

@@ -222,3 +222,41 @@ rule expected:
         "Comparing verdicts with the expected ones"
     script:
         "../src/documents/judge.py"
+
+
+# On a cluster, only the shards are worth a job.
+localrules:
+    all,
+    allen,
+    animation,
+    beyond_figures,
+    break_even,
+    claims,
+    comparison,
+    designers,
+    engine,
+    equations,
+    expected,
+    explorer,
+    friction,
+    functions,
+    gaps,
+    kernel,
+    motions,
+    notebook_derivation,
+    notebook_paper,
+    notebook_play,
+    paper_figures,
+    parameters,
+    proven,
+    records,
+    report,
+    site,
+    spectra,
+    statements,
+    supplement,
+    test_plan,
+    trilith,
+    uplift,
+    vase,
+    verification,
