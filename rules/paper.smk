@@ -217,7 +217,6 @@ rule proven:
         "results/tables/spectra_histories.csv",
     output:
         table="results/tables/proven.csv",
-        certificates="results/certificates/proven.jsonl",
         findings="results/findings/proven.json",
     log:
         "results/logs/proven.log",
@@ -227,7 +226,7 @@ rule proven:
         column=PAPER["structures"]["temple"],
         period=PAPER["vase"]["period"],
     message:
-        "Verifying minima with interval arithmetic"
+        "Proving minima with balls of numbers"
     script:
         "../src/steps/proven.py"
 

@@ -1,7 +1,5 @@
 """What many tests are about: structures, places, solvers, and which findings break."""
 
-import subprocess
-import sys
 from functools import cache
 from io import StringIO
 from pathlib import Path
@@ -77,12 +75,6 @@ def as_written(tables):
 def broken(findings):
     """Return the names of the findings that do not hold."""
     return {name for name, finding in findings.items() if finding.get("holds") is False}
-
-
-def run_alone(*paths):
-    """Run the checker's folder on files, without any package but the standard library."""
-    command = [sys.executable, "-I", "-S", str(ROOT / "src/topheavy/proven/checking")]
-    return subprocess.run([*command, *map(str, paths)], capture_output=True, text=True, timeout=300)
 
 
 def grid_of(block, waveform, scales, amplitudes, **named):

@@ -26,10 +26,6 @@ def test_library_imports_no_step():
     assert first_names(LIBRARY).isdisjoint({"derivation", "steps", "replication", "figures"})
 
 
-def test_checker_imports_only_the_standard_library():
-    assert first_names(LIBRARY / "proven" / "checking") <= sys.stdlib_module_names
-
-
 def test_the_plain_solver_shares_no_line_with_the_library_and_three_bodies_with_neither():
     assert first_names(LIBRARY).isdisjoint({"audit"})
     names = {name.split(".")[0] for name in imported(AUDIT)}

@@ -19,7 +19,6 @@ from topheavy.bodies.response import MAX_SAMPLES
 from topheavy.bodies.structures import simplified
 from topheavy.forces import clamped_forces, forces_at
 from topheavy.ground.shapes import ELEMENTARY, PULSE_SHAPES
-from topheavy.proven import certified
 
 # ---------------------------------------------------------------------------- every argument
 
@@ -291,13 +290,6 @@ BAD = {  # what the message begins with or has, and what is called
     "confidence is 1; expected more than 0 and less than 1": lambda: fragile(confidence=1.0),
     "resamples is 10; expected a whole number from 100 to": lambda: fragile(resamples=10),
     "rotation_limit is 5 rad (286.5°); expected an angle": lambda: fragile(rotation_limit=5.0),
-    # proofs
-    "factor is (2, 1); expected the lower end first": lambda: certified(COLUMN, PULSE, (2.0, 1.0)),
-    "factor is nan": lambda: certified(COLUMN, PULSE, math.nan),
-    "the excitation goes on": lambda: certified(COLUMN, FOREVER),
-    "; expected a Pulse": lambda: certified(COLUMN, SHAKING),
-    "the largest α that rocks is 0.955317 rad": lambda: certified(STOCKY, PULSE),
-    "slenderness is '1.5705'; expected": lambda: certified(th.RockingBlock(2, 1.5705, 0.9), PULSE),
 }
 
 

@@ -2,7 +2,7 @@
 
 import math
 import sys
-from typing import Any, assert_type
+from typing import assert_type
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,7 +79,6 @@ print(th.STANDARD_GRAVITY)
 
 assert_type(measured.scaled_to(pgv=0.5), th.Record)
 assert_type(measured.time, NDArray[np.float64])
-assert_type(th.proven.certified(pier, pulse), dict[str, Any] | None)
 for axes in (
     th.plot.history(th.simulate(bent, shaking, samples=times)),
     th.plot.forces(forces_over_time),

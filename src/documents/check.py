@@ -2,19 +2,13 @@
 
 Files have the checksums of docs/SHA256SUMS. Parameters are those of config/config.yaml. Findings
 are drawn again from the tables by the steps that drew them, every claim is judged again, and
-verdicts, both pages and the animation are made again. Certificates are verified by their program.
+verdicts, both pages and the animation are made again.
 """
 
-import csv
-import gzip
 import hashlib
 import json
-import math
 import runpy
-import subprocess
-import sys
 from collections.abc import Iterator
-from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +21,6 @@ from replication.verdicts import counts, judged, unexpected
 
 REFERENCE, DOCS = Path("tests/reference"), Path("docs")
 SUMS = DOCS / "SHA256SUMS"
-CERTIFICATES, VERIFIER = DOCS / "certificates.jsonl.gz", "src/topheavy/proven/checking"
 MEND = "make reproduce && make publish"
 
 
@@ -125,46 +118,12 @@ def rewritten(rows: list[dict[str, Any]], *names: str) -> Iterator[str]:
             yield f"{DOCS / name}, line {at}, is not what tables and sources give: {MEND}"
 
 
-def mislabelled() -> Iterator[str]:
-    """Yield the first certificate without structure, amplitudes and outcome of its row.
-
-    The amplitudes of the table have fifteen digits.
-    """
-    with (REFERENCE / "proven.csv").open(encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if row["outcome"] != "undecided"]
-    lines = gzip.decompress(CERTIFICATES.read_bytes()).decode().splitlines()
-    for number, (row, line) in enumerate(zip_longest(rows, lines), 1):
-        if row is None or line is None or not _agree(row, json.loads(line)):
-            yield f"{CERTIFICATES}, line {number}, is not of row {number} of proven.csv: {MEND}"
-            return
-
-
-def _agree(row: dict[str, str], certificate: dict[str, Any]) -> bool:
-    """Return whether a certificate proves what a row of the table says."""
-    ratio = certificate["structure"]["mass_ratio"].replace("infinite", "inf")
-    peak = float(certificate["pulse"]["amplitude"])
-    theirs = [float(ratio), *(peak * float(factor) for factor in certificate["factor"])]
-    ours = [float(row[name]) for name in ("mass_ratio", "low", "high")]
-    return row["outcome"] == certificate["outcome"] and all(
-        math.isclose(*pair, rel_tol=1e-14) for pair in zip(ours, theirs, strict=True)
-    )
-
-
 def faults(rows: list[dict[str, Any]]) -> Iterator[str]:
     """Yield a line for each thing that is published and is not as it should be."""
-    verifier = subprocess.Popen(  # 12 s, beside the others
-        [sys.executable, "-I", "-S", VERIFIER, str(CERTIFICATES)],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
     yield from unsealed()
     yield from of_another_run()
     yield from unexpected(rows)
     yield from rewritten(rows)
-    yield from mislabelled()
-    _, refused = verifier.communicate()
-    yield from refused.splitlines()
 
 
 if __name__ == "__main__":

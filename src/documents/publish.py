@@ -5,7 +5,6 @@ import json
 import shutil
 import subprocess
 import sys
-import zlib
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -26,7 +25,6 @@ PAGES = {
     "results/explorer.html": "explorer.html",
     "results/functions.html": "functions.html",
     "results/animation.gif": "animation.gif",
-    "results/certificates/proven.jsonl": "certificates.jsonl.gz",
 }
 PICTURES = ["structures", "parameters", "trilith", "allen", "vase", "where", "motions"]  # of README
 
@@ -94,10 +92,7 @@ def main() -> None:
             path.unlink()
     for source, target in made.items():
         target.parent.mkdir(parents=True, exist_ok=True)
-        if target.suffix == ".gz":
-            target.write_bytes(zlib.compress(source.read_bytes(), wbits=31))
-        else:
-            shutil.copyfile(source, target)
+        shutil.copyfile(source, target)
     sums = [
         path for folder in (DOCS, REFERENCE) for path in sorted(folder.rglob("*")) if path.is_file()
     ]

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 FOLDERS = Path("src"), Path("figures")  # where the modules of this repository are
-PACKAGES = {"yaml": "PyYAML", "mujoco": "mujoco-core"}
+PACKAGES = {"yaml": "PyYAML", "mujoco": "mujoco-core", "flint": "python-flint"}
 """Packages whose name differs from that of their module."""
 
 

@@ -14,7 +14,7 @@ Angles are in rad, rotations signed, accelerations in g, everything else in SI u
 - a pulse: `lowest_overturning`, `overturning_spectrum`, `overturning_intervals`, `overturning_map`
 - a record: `capacity`, `overturned_by`, `peak_rotations`
 - many motions: `fragility`
-- pictures: `plot`; outcomes verified with interval arithmetic: `proven`
+- pictures: `plot`
 
 In the examples `th` is this package and `np` is NumPy.
 

@@ -1,4 +1,4 @@
-from . import plot, proven
+from . import plot
 from .bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from .bodies.free_rocking import Outcome
 from .bodies.response import Response
@@ -57,7 +57,6 @@ __all__ = [
     "overturning_spectrum",
     "peak_rotations",
     "plot",
-    "proven",
     "read_record",
     "simulate",
 ]

@@ -12,7 +12,7 @@ import topheavy as th
 from documents import animation
 from replication.step import findings_text
 from steps import proven, spectra, uplift, vase
-from steps.shared import cycles, spectrum
+from steps.shared import balls, cycles, spectrum
 from steps.shared.histories import history
 from steps.shared.spectrum import FRAME, KEYS, line, solve
 from tests.cases import COLUMN, CONFIG, ROOT, SIZES, as_written, broken
@@ -290,14 +290,12 @@ def test_picture_shows_the_outcomes(minima):
 
 VERIFIED = pd.DataFrame(
     [
-        ("minimum", "column", 0.0, 0.2, 0.2, "survives"),
-        ("minimum", "column", 0.0, 0.2 * (1 + 2e-8), 0.2 * (1 + 2e-8), "overturns"),
-        ("below", "column", 0.0, 0.0, 0.1, "survives"),
-        ("below", "column", 0.0, 0.1, 0.2, "survives"),
-        ("exception", "frame", 0.0, 0.9, 0.9, "survives"),
-        ("exception", "frame", math.inf, 0.9, 0.9, "overturns"),
+        ("minimum", "column", 0.0, 0.2, "survives"),
+        ("minimum", "column", 0.0, 0.2 * (1 + 2e-8), "overturns"),
+        ("exception", "frame", 0.0, 0.9, "survives"),
+        ("exception", "frame", math.inf, 0.9, "overturns"),
     ],
-    columns=["part", "structure", "mass_ratio", "low", "high", "outcome"],
+    columns=["part", "structure", "mass_ratio", "amplitude", "outcome"],
 )
 
 
@@ -311,11 +309,8 @@ QUOTED = pd.DataFrame(
     ("row", "column", "number", "breaks"),
     [
         (0, "outcome", "undecided", "boundaries"),
-        (0, "low", 0.21, "boundaries"),
-        (3, "low", 0.11, "nothing_below"),
-        (3, "high", 0.19, "nothing_below"),
-        (2, "outcome", "undecided", "nothing_below"),
-        (5, "outcome", "survives", "exception"),
+        (0, "amplitude", 0.21, "boundaries"),
+        (3, "outcome", "survives", "exception"),
     ],
 )
 def test_each_outcome_counts(row, column, number, breaks):
@@ -330,14 +325,42 @@ def test_each_outcome_counts(row, column, number, breaks):
 
 def test_both_sides_of_a_minimum_are_verified():
     low = float(f"{minimum(COLUMN).factor:.9g}")
-    pairs = proven.sides(COLUMN, PULSE, low)
+    pairs = proven.sides(SIZES, 0.0, low, 1.5)
     assert [amplitude for amplitude, _ in pairs] == pytest.approx(
         [low * (1 - 1e-8), low * (1 + 1e-8)], rel=1e-14
     )
-    assert [proven.outcome(one) for _, one in pairs] == ["survives", "overturns"]
-    others = proven.sides(COLUMN, PULSE, 1.01 * low)
-    assert [proven.outcome(one) for _, one in others] == ["overturns", "overturns"]
-    assert proven.outcome(None) == "undecided"
+    assert [end for _, end in pairs] == ["survives", "overturns"]
+    others = proven.sides(SIZES, 0.0, 1.01 * low, 1.5)
+    assert [end for _, end in others] == ["overturns", "overturns"]
+    assert proven.proven(SIZES, 0.0, 0.1, 1.5) == "undecided"  # below uplift
+
+
+@pytest.mark.parametrize("gamma", [0.0, 1.0, math.inf])
+def test_no_proof_contradicts_the_solver(gamma):
+    frame = th.RockingFrame(COLUMN, gamma)
+    for amplitude in np.linspace(0.18, 1.5, 12):
+        for period in (0.5, 1.5, 3.0):
+            pulse = th.Pulse("one-cosine", amplitude, period=period)
+            end = proven.proven(SIZES, gamma, amplitude, period)
+            expected = "overturns" if th.judge(frame, pulse).overturned else "survives"
+            assert end in (expected, "undecided")
+
+
+def test_terms_and_remainder_contain_the_motion():
+    block = balls.block_of(SIZES, 1.0, 0.4, 1.5)
+    state = balls.State(balls.arb(0), -1, balls.arb(0), balls.arb(0), 2)
+    step = balls.exact(0.25)
+    found = balls.value(balls.terms(block, state, step), step)
+    p = th.RockingFrame(COLUMN, 1.0).frequency_parameter
+    pulse = th.Pulse("one-cosine", 0.4, period=1.5)
+    there = th.simulate(th.RockingFrame(COLUMN, 1.0), pulse, samples=[0.0, 0.25 / p])
+    assert abs(there.rotation[1]) == pytest.approx(float(found.mid()), rel=1e-9)
+    halves = balls.value(balls.terms(block, state, step / 2), step / 2)
+    rate = balls.velocity_at(block, state, step / 2)
+    second = balls.State(step / 2, -1, halves, rate, 0)
+    twice = balls.value(balls.terms(block, second, step / 2), step / 2)
+    assert twice.overlaps(found)
+    assert float(found.rad()) < 1e-20
 
 
 # Forces after uplift -----------------------------------------------------------------------------

@@ -1,12 +1,11 @@
-"""The one description of pulse shapes, from which library, kernel, proofs, configs and page read.
+"""The one description of pulse shapes, from which library, kernel, configs and page read.
 
 A pulse is a wave of the phase ωt over a number of half periods. Each wave f(x) solves
 
     f'' = −stiffness f − drag (x − CENTRE) f',
 
 which gives the Taylor series of the kernel and of the page. The formula of a wave stands in
-`pulses`, which the kernel compiles, in `proven.checking.model` (in intervals) and in
-src/explorer/motions.js.
+`pulses`, which the kernel compiles, and in src/explorer/motions.js.
 """
 
 import math
@@ -88,4 +87,4 @@ ELEMENTARY = tuple(name for name, shape in SHAPES.items() if not WAVES[shape.wav
 """Shapes under which the linearised equation has a solution in elementary functions."""
 
 MAX_CYCLES = 100
-"""Of a pulse: a phase of a certificate (`proven`) goes up to 1000."""
+"""Of a pulse."""
