@@ -238,6 +238,9 @@ def advance(lanes, begin, end, drive):
         resting = some[SIDE] == 0
         if resting.any():
             uplift(some, resting, end, drive.ground)
+            if not some[SIDE].any():  # all rest until the end
+                lanes[:, todo] = some
+                return
             x = some[X]
         phi, rate = drive.leap(some, x, end - x, drive)
         moving, limit = some[SIDE] != 0, np.full(todo.size, end) - x

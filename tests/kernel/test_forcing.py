@@ -197,4 +197,4 @@ def test_rest_is_not_called_when_gravity_is_about_to_fall():
         for side in (-1.0, 1.0):
             push = -side * 0.9 * BLOCK.uplift_level - BLOCK.uplift_level
             state = State(0.0185, side, 0.0, 2e-6, 0.0, 1.0, push, 0.0, 1.0, 0.0)
-            assert comes_to_rest(BLOCK, there, state, 1.0) is expected
+            assert comes_to_rest(BLOCK, there, state, 1.0, 1e-6) is expected

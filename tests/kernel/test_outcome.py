@@ -55,7 +55,7 @@ def test_fast_bounces_are_not_skipped(fraction):
     block = BLOCK.linear()
     velocity = 0.2 * fraction * block.slenderness
     state = aloft(block, 0.0, velocity)
-    method = Method(15, 1e-9, True)
+    method = Method(15, 1e-9, True, 1e-6)
     step, event, _ = advance(
         working_array(), method, oscillator(block), STILL, state, 1, math.inf, 1.0
     )
@@ -75,7 +75,7 @@ def test_uplift_makes_no_impact_of_its_own(degrees, linearised):
             time, push, rate, _ = forcing.next_uplift(pulse, 0.0, block.uplift_level)
             state = State(time, 1.0, 0.0, 0.0, 0.0, 1.0, push, rate, 1.0, 0.0)
             above = 2 * math.acos(1 / (1 + excess)) / ratio
-            method = Method(15, 1e-9, False)
+            method = Method(15, 1e-9, False, 1e-6)
             step, event, peak = advance(w, method, block, pulse, state, 3, above, 0.0)
             assert event != LANDING
             assert step > 0.0
@@ -139,7 +139,7 @@ def landed(block, motion, time, velocity, side=1.0):
 
 
 def rests(block, motion, *state) -> bool:
-    return comes_to_rest(block, motion, landed(block, motion, *state), 1.0)
+    return comes_to_rest(block, motion, landed(block, motion, *state), 1.0, 1e-6)
 
 
 @pytest.mark.parametrize(
@@ -181,7 +181,7 @@ def test_what_is_called_rest_does_bounce_to_rest_before_the_next_uplift(linearis
             continue
         seen += 1
         begun = velocity
-        state, method = landed(block, pulse, time, velocity, side), Method(15, 1e-12, False)
+        state, method = landed(block, pulse, time, velocity, side), Method(15, 1e-12, False, 1e-6)
         while state.velocity > 1e-6 * begun:
             state = with_ground(block, state, state.time, ground(pulse, state.time))
             step, event, top = advance(w, method, block, pulse, state, 1, 1.0, 0.0)

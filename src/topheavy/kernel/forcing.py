@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy.ground.pulses import unit_wave
+from topheavy.ground.pulses import ANTISYMMETRIC_PEAK, unit_wave
 from topheavy.ground.shapes import (
     CENTRE,
     CONSTANT,
@@ -42,6 +42,17 @@ DRAG = np.array([*(wave.drag for wave in WAVES.values()), 0.0, 0.0])
 #: Phases at which a Ricker wavelet turns, a row for each, filled up by infinity.
 RICKER_TURNS = np.array(
     [(*WAVES[name].turns, math.inf)[:4] for name in ("ricker-symmetric", "ricker-antisymmetric")]
+)
+#: The phases after which a Ricker wavelet has its last lobe before it, and falls for good; that lobe.
+RICKER_TAILS = np.array(
+    [
+        (CENTRE, CENTRE + 2.0 * math.sqrt(1.5), 2.0 * math.exp(-1.5)),
+        (
+            CENTRE + math.sqrt(3.0 * (3.0 - math.sqrt(6.0))),
+            CENTRE + math.sqrt(3.0 * (3.0 + math.sqrt(6.0))),
+            0.2728,
+        ),
+    ]
 )
 #: A Ricker wavelet has at most five monotone pieces, each of which rounding may cut in two. In as
 #: many of a sine's or cosine's, |a| reaches its largest value more than once.
@@ -74,13 +85,14 @@ class Forcing(NamedTuple):
     record: Array
 
 
-NO_RECORD = np.empty((9, 0))
+NO_RECORD = np.empty((11, 0))
 #: Pieces whose largest values are kept, so that a search for the next uplift can skip them.
 RUN_LENGTH = 32
 #: Rows of a record: a where a piece begins and where it ends; v there; the time at which it begins,
 #: over that between two samples; the largest |a| and the largest |v| from there on; those of each
-#: run.
+#: run; the integrals of |a| and of |v| from there on, over the time between two samples.
 A_START, A_END, V_START, V_END, TIME, A_MAX, V_MAX, A_MAX_OF_RUN, V_MAX_OF_RUN = range(9)
+A_LEFT, V_LEFT = 9, 10
 
 
 NO_MOTION = Waveform(NONE, 0.0, NO_RECORD)
@@ -132,7 +144,14 @@ def prepare_record(samples: Array, vertical: Array | None = None, ratio: float =
     a_max, a_max_of_run = _bounds(a_start, a_end)
     v_max, v_max_of_run = _bounds(v_start, v_end)
     ends = (a_start, a_end, v_start, v_end)
-    return np.stack([*ends, time, a_max, v_max, a_max_of_run, v_max_of_run])
+    left = (_left(time, a_start, a_end), _left(time, v_start, v_end))
+    return np.stack([*ends, time, a_max, v_max, a_max_of_run, v_max_of_run, *left])
+
+
+def _left(time: Array, start: Array, end: Array) -> Array:
+    """Return a bound on the integral of the modulus from each piece on: that of its chords."""
+    pieces = 0.5 * (np.abs(start) + np.abs(end))[:-1] * np.diff(time)
+    return np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
 
 
 def _ends(time: Array, record: Array, step: float) -> tuple[Array, Array]:
@@ -217,7 +236,44 @@ def bounds_after(forcing, time):
         if change >= 1.0:
             return np.inf, 1.0 + change
         return abs(forcing.amplitude) * forcing.record[A_MAX, k] / (1.0 - change), 1.0 + change
-    return UNIT_BOUND * abs(forcing.amplitude), 1.0
+    strength = UNIT_BOUND * abs(forcing.amplitude)
+    if forcing.wave == RICKER_SYMMETRIC or forcing.wave == RICKER_ANTISYMMETRIC:
+        first, last, lobe = RICKER_TAILS[forcing.wave - RICKER_SYMMETRIC]
+        phase = forcing.frequency * time
+        if phase >= last:
+            now = unit_pulse(forcing.wave, phase)[0]
+            strength *= abs(now)
+        elif phase >= first:
+            strength *= lobe
+    return strength, 1.0
+
+
+@compiled
+def impulse_after(forcing, time, piece):
+    """Return bounds on the integrals of |a| and of |v| over τ from `time` on, infinite if unknown.
+
+    Of a record they are those from the beginning of its piece on.
+    """
+    wave, frequency = forcing.wave, forcing.frequency
+    if wave == NONE or time >= forcing.end:
+        return 0.0, 0.0
+    if wave == RECORD:
+        size, most = abs(forcing.amplitude) * forcing.step, abs(forcing.vertical_factor)
+        return (
+            size * forcing.record[A_LEFT, piece],
+            most * forcing.step * forcing.record[V_LEFT, piece],
+        )
+    size = abs(forcing.amplitude) / frequency
+    if wave == RICKER_SYMMETRIC:
+        y = 0.5 * (frequency * time - CENTRE)
+        if y * y > 0.5 and y > 0.0:  # past its last zero; (y exp(−y²))' = (1 − 2y²) exp(−y²)
+            return size * 2.0 * y * math.exp(-y * y), 0.0
+    if wave == RICKER_ANTISYMMETRIC:
+        x = (frequency * time - CENTRE) / math.sqrt(3.0)
+        if x * x > 3.0 and x > 0.0:
+            bell = math.exp(-0.5 * x * x) / ANTISYMMETRIC_PEAK
+            return size * math.sqrt(3.0) * (x * x - 1.0) * bell, 0.0
+    return np.inf, 0.0
 
 
 @compiled

@@ -30,6 +30,7 @@ from topheavy.kernel.history import (
     judge,
     sample,
 )
+from topheavy.kernel.rest import MIN_COUNTED_PEAK
 from topheavy.kernel.step import HALT, MAX_STEPS, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import Method, Oscillator
 
@@ -37,6 +38,10 @@ from topheavy.kernel.taylor import Method, Oscillator
 MAX_BATCHES = 64
 #: The least number of histories in a batch: fewer are over before a second thread has started.
 MIN_PULSES, MIN_FACTORS = 256, 32
+#: What is asked of a history: whether it overturns; its peak, too; or all, with its impacts.
+OVERTURNING, PEAKS, ALL = range(3)
+#: Bounces of a pulse's history lower than this, over α, are left out where impacts do not count.
+LEAST = 1e-2
 #: Histories of fewer samples, all together, are over within a second or two, whatever happens.
 MIN_THREADED_SAMPLES = 100_000
 
@@ -79,6 +84,7 @@ def outcomes_of(
     vertical_factors: Array | None = None,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
+    wanted: int = ALL,
 ) -> Results:
     """Return the outcomes of histories of several blocks, each with its scale and amplitude.
 
@@ -115,7 +121,7 @@ def outcomes_of(
     rows = np.array([tuple(map(float, block)) for block in blocks])
 
     def judge_batch(first: int, last: int, w: Array) -> int:
-        return int(judge_cells(w, tolerance, rows, waveform, cells, first, last, results))
+        return int(judge_cells(w, tolerance, rows, waveform, cells, first, last, results, wanted))
 
     batches = max(1, min(MAX_BATCHES, size // (MIN_FACTORS if is_record else MIN_PULSES)))
     if batches == 1 and size * max(waveform.record.shape[1], 1) <= MIN_THREADED_SAMPLES:
@@ -132,7 +138,7 @@ def outcomes_of(
 
 
 @compiled(nogil=True)
-def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results):
+def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results, wanted):
     """Fill the results from the first cell to the one before the last; stop where one is given up.
 
     Returns
@@ -149,8 +155,9 @@ def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results):
             cells.vertical_factor[cell],
         )
         forcing = forcing_of(waveform, scale, amplitude, vertical_factor)
-        method = Method(cells.order[cell], tolerance, is_straight(waveform.wave))
-        history = judge(w, method, block, forcing)
+        least = MIN_COUNTED_PEAK if wanted == 2 or waveform.wave == RECORD else LEAST
+        method = Method(cells.order[cell], tolerance, is_straight(waveform.wave), least)
+        history = judge(w, method, block, forcing, wanted)
         if history.result == UNRESOLVED:
             return cell
         results.overturned[cell] = history.result == OVERTURNED
@@ -202,7 +209,7 @@ def sampled(
     """Return the history of a block from θ and dθ/dτ on, and fill its samples; see `sample`."""
     is_record = forcing.wave == RECORD
     order = record_order(forcing.step, tolerance) if is_record else PULSE_ORDER
-    method = Method(order, tolerance, is_straight(forcing.wave))
+    method = Method(order, tolerance, is_straight(forcing.wave), MIN_COUNTED_PEAK)
 
     def call(w: Array) -> History:
         history: History = sample(w, method, block, forcing, *start, until, samples)

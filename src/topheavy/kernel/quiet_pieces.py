@@ -15,8 +15,11 @@ Gravity multiplies sin φ / cos α and cos φ / cos α. It is a straight line, t
 slope are added to E and H.
 """
 
+import math
+
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import TIME, ground_of_piece, piece_start
+from topheavy.kernel.forcing import TIME, ground_of_piece, impulse_after, piece_start
+from topheavy.kernel.rest import MIN_COUNTED_PEAK
 from topheavy.kernel.taylor import INVERSE, State
 
 #: Between two samples the block turns by less than this, so that seven terms give sin and cos.
@@ -25,6 +28,8 @@ MAX_TURN = 0.05
 MAX_PIECES_BEYOND = 32
 #: Relative to φ = π/2: up to this rotation no piece reaches the end of the exact motion.
 MAX_ROTATION = 0.9
+#: For a landing; four are usual.
+MAX_NEWTON_STEPS = 12
 
 
 @compiled(fastmath={"contract"})
@@ -105,6 +110,47 @@ def short_series(h, force, slope, force_rate, slope_rate, velocity, rotation, pe
     return abs(turn) <= MAX_TURN, turn, gain
 
 
+@compiled(fastmath={"contract"})
+def landing(h, force, slope, force_rate, slope_rate, velocity, rotation, bound):
+    """Return the share of a piece after which a block lands, and φ' there; 2 if that is not proven.
+
+    It falls throughout, so that Newton's steps from either side lead to the one root.
+    """
+    h1, h2, h3, h4, h5, h6, h7 = powers(h)
+    d3, d4, d5, d6, d7 = derivatives(force, slope, force_rate, slope_rate, velocity)
+    if h6 * max(abs(d7), abs(d6)) > bound:
+        d8 = eighth_derivative(force, slope, force_rate, slope_rate, velocity)
+        if h7 * max(abs(d8), abs(d7)) > bound:
+            return 2.0, 0.0
+    c1, c2, c3, c4 = h1 * velocity, h2 * force, h3 * d3, h4 * d4
+    c5, c6, c7 = h5 * d5, h6 * d6, h7 * d7
+    others = abs(c3) + abs(c4) + abs(c5) + abs(c6) + abs(c7)
+    if max(c1, c1 + 2 * c2) >= -7 * others or rotation + c1 + c2 + others > 0.0:
+        return 2.0, 0.0
+    x, rate = rotation / (rotation - (rotation + c1 + c2 + c3)), c1
+    for _ in range(MAX_NEWTON_STEPS):
+        value, rate = c7, 0.0
+        rate = rate * x + value
+        value = value * x + c6
+        rate = rate * x + value
+        value = value * x + c5
+        rate = rate * x + value
+        value = value * x + c4
+        rate = rate * x + value
+        value = value * x + c3
+        rate = rate * x + value
+        value = value * x + c2
+        rate = rate * x + value
+        value = value * x + c1
+        rate = rate * x + value
+        value = value * x + rotation
+        change = value / rate
+        x -= change
+        if abs(change) <= 1e-12 * x:
+            return (x, rate / h) if 0.0 < x <= 1.0 else (2.0, 0.0)
+    return 2.0, 0.0
+
+
 @compiled(fastmath={"contract"}, forceinline=True)
 def turned(sine, cosine, turn):
     """Return sin and cos of φ and a turn so small that these terms are exact to the last digit."""
@@ -115,48 +161,72 @@ def turned(sine, cosine, turn):
 
 
 @compiled(fastmath={"contract"})
-def skip_quiet_pieces(block, forcing, state, piece, tolerance, peak):
-    """Pass over pieces of a record until one holds an event, a turn, or too strong a bend.
+def skip_quiet_pieces(block, forcing, state, piece, method, peak, impacts, leaves):
+    """Pass over pieces of a record, and landings in them, until one is not proven.
 
     The block rocks under the exact equation; `state` is that at the first sample of `piece`. A
     piece is passed over if the terms prove (as in `step.advance`) that it holds no impact and that
-    the rotation grows throughout, or stays below `peak`, the largest φ so far. The first term of φ'
-    left out is at most `tolerance` α.
+    the rotation grows throughout, or stays below `peak`, the largest φ so far. A landing is passed
+    if it is proven to be the only one in its piece, and too fast to be the first of a train of
+    bounces that ends in rest. If the block `leaves`, it stops where its survival is certain.
 
     Returns
     -------
-    piece : int
-        The first piece that is not passed over.
-    state : State
-        That at its first sample.
-    peak : float
-        The largest φ so far.
+    piece, state, peak, impacts
+    is_low : bool
+        The flight is below `MIN_COUNTED_PEAK` α so far.
     """
-    bound, inverse_cosine = tolerance * block.slenderness, 1.0 / block.cosine
+    bound, inverse_cosine = method.tolerance * block.slenderness, 1.0 / block.cosine
     record, beyond = forcing.record, 0
     time, side, rotation, velocity, sine, cosine, push, rate, gravity, change = state
+    slight, is_low = MIN_COUNTED_PEAK * block.slenderness, False
+    barrier = math.sqrt(2.0 * (1.0 - block.cosine))
+    time, inside = 0.0, False
     while piece_start(forcing, piece + 1) < forcing.end and beyond < MAX_PIECES_BEYOND:
         if rotation > block.slenderness:
             if rotation > MAX_ROTATION * block.flat:
                 break
             beyond += 1
         h = (record[TIME, piece + 1] - record[TIME, piece]) * forcing.step
+        if inside:
+            h = piece_start(forcing, piece + 1) - time
         tilt = block.cosine * cosine + block.sine * sine  # cos(α − φ)
         lean = block.sine * cosine - block.cosine * sine  # sin(α − φ)
         weight, weight_rate = inverse_cosine * gravity, inverse_cosine * change
-        is_passed, turn, gain = short_series(
-            h,
-            sine * weight + push * tilt,
-            cosine * weight + push * lean,
+        force, slope = sine * weight + push * tilt, cosine * weight + push * lean
+        force_rate, slope_rate = (
             sine * weight_rate + rate * tilt,
             cosine * weight_rate + rate * lean,
-            velocity,
-            rotation,
-            peak,
-            bound,
+        )
+        is_passed, turn, gain = short_series(
+            h, force, slope, force_rate, slope_rate, velocity, rotation, peak, bound
         )
         if not is_passed:
-            break
+            if velocity >= 0.0 or is_low:
+                break
+            share, speed = landing(
+                h, force, slope, force_rate, slope_rate, velocity, rotation, bound
+            )
+            if share > 1.0:
+                break
+            after, speed = share * h, -speed * block.restitution
+            weight = gravity + change * after
+            near, far = -(push + rate * after), push + rate * after + 2.0 * block.uplift_level * weight
+            weakest = min(near, far)
+            if weakest > 0.0 and speed * speed <= weakest * block.cosine * slight:
+                break  # it may come to rest
+            if not inside:
+                time = piece_start(forcing, piece)
+            time, inside, is_low = time + after, True, True
+            side, rotation, velocity, sine, cosine = -side, 0.0, speed, 0.0, 1.0
+            push, rate = -far, -rate - 2.0 * block.uplift_level * change
+            gravity = weight
+            impacts += 1
+            if leaves:
+                left, left_vertical = impulse_after(forcing, time, piece)
+                if speed + left + left_vertical * block.sine < barrier:
+                    break
+            continue
         velocity += gain
         rotation += turn
         peak = max(peak, rotation)
@@ -167,6 +237,9 @@ def skip_quiet_pieces(block, forcing, state, piece, tolerance, peak):
             -side * value - block.uplift_level * gravity,
             -side * slope - block.uplift_level * change,
         )
-    time = piece_start(forcing, piece)
+        inside = False
+        is_low = is_low and rotation <= slight
+    if not inside:
+        time = piece_start(forcing, piece)
     state = State(time, side, rotation, velocity, sine, cosine, push, rate, gravity, change)
-    return piece, state, peak
+    return piece, state, peak, impacts, is_low

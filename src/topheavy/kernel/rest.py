@@ -32,13 +32,15 @@ MIN_COUNTED_PEAK = 1e-6
 #: Pieces of a record over which the push is bounded piece by piece. A block with √r → 1 would rest
 #: after so many that each bounce took the time of the whole record.
 MAX_SCANNED_PIECES = 256
+#: Of the speed of bounces by a pull that changes.
+MAX_GROWTH = 1.4
 
 
 @compiled
-def comes_to_rest(block, forcing, state, peak):
+def comes_to_rest(block, forcing, state, peak, least):
     """Return whether a block that has just landed is sure to come to rest.
 
-    True if all bounces stay below `MIN_COUNTED_PEAK` α and below `peak`, the largest φ so far, and
+    True if all bounces stay below `least` α and below `peak`, the largest φ so far, and
     die out while |a| is below the uplift level. Let f = −s a range over [f₁, f₂] while they last.
     On the side s the block is pulled back by at least g and at most G,
 
@@ -48,6 +50,11 @@ def comes_to_rest(block, forcing, state, peak):
     φ̂/cos α is at most half the first term of g. It lands with at most √(G/g) times the velocity
     that it left with, hence leaves with at most λ = √(r G/g) times that, is off the ground for
     2v/g at most, and all bounces together last 2v/g(1 − λ).
+
+    Under a pulse the pull has a few monotone pieces. A constant pull keeps the energy E of a flight,
+    a changing one changes it by |dE| ≤ |dg|/g E: over all bounces by a factor of at most G/g on
+    either side for each piece, and an impact takes it to r²E. So they last 2v (G/g)^pieces/g(1 − r)
+    at most.
 
     Under gravity Γ, level − f₂ and level − f₁ are the least and the largest Γ level − f, and the
     φ̂/cos α of g is times the largest Γ.
@@ -61,10 +68,10 @@ def comes_to_rest(block, forcing, state, peak):
     weakest = min(near, far)
     if weakest <= 0.0 or restitution >= 1.0:
         return False
-    slight = MIN_COUNTED_PEAK * block.slenderness
+    slight = least * block.slenderness
     if velocity * velocity > weakest * cosine * slight:
         return False
-    allowed = 4 * velocity / (weakest * cosine * (1 - restitution))
+    allowed, parts = 4 * velocity / (weakest * cosine * (1 - restitution)), 0
     max_near, max_far, heaviest = near, far, weight
     if time + allowed > time:
         if forcing.wave == RECORD:
@@ -72,16 +79,22 @@ def comes_to_rest(block, forcing, state, peak):
                 forcing, time, time + allowed, state.side, level
             )
         else:
-            low, high = _range(forcing, time, time + allowed, state.side)
+            low, high, parts = _range(forcing, time, time + allowed, state.side)
             near, max_near, far, max_far = level - high, level - low, level + low, level + high
     if min(near, far) <= 0.0:
         return False
     bound = velocity * velocity / (min(near, far) * cosine)
+    if parts > 0:
+        bound *= MAX_GROWTH * MAX_GROWTH
     if 2 * bound * heaviest > min(near, far) * cosine * cosine or bound > min(peak, slight):
         return False
     lost = heaviest * bound / cosine
     pull_near, pull_far = near * cosine - lost, far * cosine - lost
     ratio = (cosine + bound) * max(max_near / pull_near, max_far / pull_far)
+    if parts > 0:
+        growth = ratio**parts
+        lasts = 2 * velocity * growth <= allowed * min(pull_near, pull_far) * (1 - restitution)
+        return growth <= MAX_GROWTH and lasts
     decay = restitution * math.sqrt(ratio)
     return decay < 1.0 and 2 * velocity <= allowed * min(pull_near, pull_far) * (1 - decay)
 
@@ -94,18 +107,20 @@ def next_tick(time):
 
 @compiled
 def _range(forcing, start, stop, side):
-    """Return the least and the largest f = −s a of a pulse on [start, stop]."""
+    """Return the least and the largest f = −s a of a pulse on [start, stop], and its pieces."""
     value = -side * ground(forcing, start)[0]
-    low, high, time = value, value, start
+    low, high, time, parts = value, value, start, 0
     for _ in range(MAX_PIECES):
         if time >= stop:
             break
+        parts += 1
         time = min(next_turn(forcing, time), stop) if time < forcing.end else stop
         value = -side * ground(forcing, time)[0]
         low, high = min(low, value), max(high, value)
         if time >= forcing.end:
             low, high = min(low, 0.0), max(high, 0.0)
-    return low, high
+            parts += 1
+    return low, high, parts
 
 
 @compiled

@@ -11,7 +11,7 @@ import numpy as np
 
 from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, isolated_root, roots, to_bernstein
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import bounds_after, equation
+from topheavy.kernel.forcing import bounds_after, equation, impulse_after
 from topheavy.kernel.taylor import ROTATION, State, expand, longest_step
 
 #: Terms of φ in a step of a pulse.
@@ -59,6 +59,28 @@ def is_certain_to_overturn(block, forcing, state):
     balance = block.slenderness + math.atan(strength)
     factor = math.sqrt(math.sqrt(1.0 + strength * strength) * heaviest)
     return balance < block.flat and state.velocity > factor * (balance - state.rotation)
+
+
+@compiled
+def is_certain_to_survive(block, forcing, state, piece, needs_peak, peak):
+    """Return whether all that is left of a record cannot carry the block to φ = α.
+
+    With K = φ'²/2 + cos(α − φ) − cos α, S = √(2K) is the speed at φ = 0. Up to φ = α, S' ≤ |a| +
+    |v| sin α; an impact lessens S; and K = 1 − cos α has to be reached. Where the peak is asked
+    for, S may not reach that of the peak either.
+    """
+    if block.linearised or state.rotation > block.slenderness:
+        return False
+    push, change = impulse_after(forcing, state.time, piece)
+    left = push + change * block.sine
+    barrier = 2.0 * (1.0 - block.cosine)
+    if needs_peak:
+        barrier = min(barrier, 2.0 * (math.cos(block.slenderness - peak) - block.cosine))
+    if left * left >= barrier:
+        return False
+    tilt = block.cosine * state.cosine + block.sine * state.sine
+    square = state.velocity * state.velocity + 2.0 * (tilt - block.cosine)
+    return math.sqrt(max(square, 0.0)) + left < math.sqrt(barrier)
 
 
 @compiled(fastmath={"contract"})

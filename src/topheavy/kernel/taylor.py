@@ -80,6 +80,7 @@ class Method(NamedTuple):
     order: int  # of the series of φ
     tolerance: float  # bound on the last two terms of φ' in a step, normalised by α (φ if larger)
     is_straight: bool  # a and G are straight lines: a record's piece, a constant, no motion
+    least: float  # bounces lower than this, normalised by α, that surely end in rest are left out
 
 
 #: Rows of the working array `w`: the coefficients of φ, φ', sin φ, cos φ, cos(α − φ), q and G by
@@ -93,7 +94,7 @@ def expand(w, method, block, state, ground_equation):
 
     `ground_equation` has the c, d₀ and d₁ of `forcing.equation`.
     """
-    (order, _, is_straight), (c, d0, d1) = method, ground_equation
+    (order, _, is_straight, _), (c, d0, d1) = method, ground_equation
     w[ROTATION, 0], w[VELOCITY, 0] = state.rotation, state.velocity
     w[SINE, 0], w[COSINE, 0] = state.sine, state.cosine
     w[PUSH, 0], w[PUSH, 1] = (

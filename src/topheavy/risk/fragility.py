@@ -18,6 +18,7 @@ from topheavy import checks
 from topheavy.bodies.structures import Structures, named_blocks
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
+from topheavy.kernel.grid import OVERTURNING, PEAKS
 from topheavy.outcomes.search import peaks_and_outcomes
 from topheavy.risk import inputs
 from topheavy.risk.curve import curve, dispersions, fit, medians, points_between, rises_past
@@ -242,7 +243,12 @@ def fragility(
 
     def outcomes_of(motion: Pulse | Record, up: Record | None, factors: Array) -> Outcomes:
         peaks, overturned = peaks_and_outcomes(
-            [*blocks.values()], motion, factors, vertical=up, scale_vertical=scale_vertical
+            [*blocks.values()],
+            motion,
+            factors,
+            vertical=up,
+            scale_vertical=scale_vertical,
+            wanted=OVERTURNING if limit is None else PEAKS,
         )
         return overturned if limit is None else ~(peaks <= limit)  # also where it is NaN
 
