@@ -88,9 +88,9 @@ extern "C" double peak(double alpha, double restitution, double omega, double am
     if (column.time < 2.0 * half) continue;
     const double x = column.x[0], v = column.x[1];  // free motion, by energy
     double surplus = v * v / 2 + std::cos(alpha - x) - 1;
-    if (v < 0.0 && (x <= alpha || surplus >= 0.0))
-      surplus = (surplus + 1 - std::cos(alpha)) * restitution * restitution - 1 + std::cos(alpha);
-    if (surplus >= 0.0 || (v > 0.0 && x > alpha)) return NAN;
+    if (x > alpha && (v > 0.0 || surplus < 0.0)) return NAN;
+    if (v < 0.0) surplus = (surplus + 1 - std::cos(alpha)) * restitution * restitution - 1 + std::cos(alpha);
+    if (surplus >= 0.0) return NAN;
     return std::max({column.top, x, alpha - std::acos(1 + surplus)}) / alpha;
   }
   return column.top / alpha;
