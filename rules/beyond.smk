@@ -36,6 +36,7 @@ rule motions:
         probabilities=shown("results/tables/motions.csv"),
         gains=shown("results/tables/motions_gains.csv"),
         pairs="results/tables/motions_pairs.csv",
+        harmonic="results/tables/motions_harmonic.csv",
         fragility="results/tables/motions_fragility.csv",
         rotations="results/tables/motions_rotations.csv",
         findings="results/findings/motions.json",
@@ -79,6 +80,7 @@ rule records:
         kernel="results/kernel.compiled",
     output:
         table="results/tables/records.csv",
+        structures="results/tables/records_structures.csv",
         capacity="results/tables/records_capacity.csv",
         findings="results/findings/records.json",
     log:

@@ -215,6 +215,9 @@ Paper = section(
         rotations=section("velocities motions"),
         noise=section("seed soils corners motions"),
         vertical=section(share=Positive),
+        harmonic=section(
+            "frequency_ratio points motions seed", amplitudes=Items[Positive], cycles=Pair
+        ),
     ),
     break_even=section(
         "velocities bootstrap sample lowered contact",
@@ -223,6 +226,7 @@ Paper = section(
     ),
     records=section(
         "mass_ratios slendernesses sample sizes factors",
+        by_structure=section(names=Items[StructureName], factors=Count),
         capacity=section("structure mass_ratios windows share"),
     ),
     friction=section(

@@ -370,7 +370,6 @@ def findings(
             whole, [pair for pair in pairs if pair[0][1] == COLUMN]
         ),
         "larger_is_more_stable": ranking(whole, larger),
-        "larger_column_survives": truth(whole.bands([pair[::-1] for pair in larger])),
         "never_caused_without_impact": truth(sum(caused_at_once) < 1e-6),  # of g tan α: rounding
         "prevents_more_than_it_causes": truth((frame.prevented > frame.caused).all()),
         "prevented": value(*prevented),

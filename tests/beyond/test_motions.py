@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from steps.beyond import break_even, motions, records
-from steps.shared import filtered_noise, plain, sweep
+from steps.shared import filtered_noise, harmonic, plain, sweep
 from steps.shared.filtered_noise import Soil
 from tests.cases import COLUMN, CONFIG, broken
 from topheavy import Capacity, Column, Record, RockingFrame, judge
@@ -19,6 +19,7 @@ SETTINGS = CONFIG["motions"] | {
     "fewer": 3,
     "rotations": {"motions": 2, "velocities": [0.3, 0.6]},
     "noise": CONFIG["motions"]["noise"] | {"motions": 3, "soils": [1.0], "corners": [0.2]},
+    "harmonic": CONFIG["motions"]["harmonic"] | {"motions": 2},
     "bootstrap": {"resamples": 100, "confidence": 0.95, "seed": 1},
 }
 LAST = "broadband, M 7.3"
@@ -217,7 +218,9 @@ TABLES = {
     | {"harm_low": 0.1, "benefit_low": 0.05},
     "gains": {"model": "one", "gain_low": 0.1, "gain": 0.2, "gain_high": 0.3, "mass_ratio": 1.0},
     "pairs": {"ratio": 0.4, "ratio_high": 0.9},
+    "harmonic": {"amplitude": 2.6, "lighter": 0.0, "difference": -0.1, "difference_low": -0.2},
 }
+ORDER = {"probability_is_lower", "column_overturns_most_often"}
 
 
 @pytest.mark.parametrize(
@@ -228,7 +231,8 @@ TABLES = {
         ("motions", "harm_low", 0.0, {"order"}),
         ("gains", "gain_low", -0.1, {"gain", "gain_temple"}),
         ("motions", "only_frame", 0, {"some_only_frame"}),
-        ("pairs", "ratio_high", 1.0, {"probability_is_lower"}),
+        ("pairs", "ratio_high", 1.0, ORDER),
+        ("harmonic", "difference", 0.1, {"column_overturns_most_often"}),
     ],
 )
 def test_one_row_is_enough_to_refute(table, column, number, false):
@@ -237,9 +241,37 @@ def test_one_row_is_enough_to_refute(table, column, number, false):
     tables[table].loc[1, column] = number
     settings = SETTINGS | {"structures": ["temple", "trilith"]}
     found = motions.findings(*tables.values(), settings, CONFIG["structures"])
-    assert broken(found) == false
+    assert broken(found) - {"order_of_frames_can_turn"} == false
     assert found["outcomes_that_change"]["value"] == 0.05
     assert found["gain"]["least"] == found["gain"]["most"] == 0.2
+
+
+def test_heavier_frames_that_overturn_more_often_qualify_the_order():
+    tables = {name: pd.DataFrame([row] * 2) for name, row in TABLES.items()}
+    tables["gains"]["structure"] = ["trilith", "temple"]
+    tables["harmonic"].loc[1, ["lighter", "difference", "difference_low"]] = [2.0, 0.05, 0.01]
+    settings = SETTINGS | {"structures": ["temple", "trilith"]}
+    found = motions.findings(*tables.values(), settings, CONFIG["structures"])
+    assert broken(found) == {"probability_is_lower"}
+    assert found["probability_is_lower"]["holds_when"]
+    assert found["order_of_frames_can_turn"]["difference"] == 0.05
+
+
+def test_harmonic_motions_end_anywhere_and_are_compared_by_pairs():
+    settings = CONFIG["motions"]["harmonic"] | {"motions": 40}
+    record = harmonic.motion(settings, 3, COLUMN)
+    cycles = record.duration * settings["frequency_ratio"] * COLUMN.frequency_parameter / math.tau
+    assert 1.0 < cycles < 20.0
+    assert record.peak_acceleration == pytest.approx(COLUMN.uplift_acceleration, rel=1e-3)
+    gammas = [0.0, 1.0]
+    fell = harmonic.outcomes(settings, gammas, COLUMN)
+    level = settings["amplitudes"][0]
+    assert fell[3, 1, 0] == judge(RockingFrame(COLUMN, 1.0), record.scaled(level)).overturned
+    plain.check_sample(harmonic.sampled(settings, gammas, fell, COLUMN))
+    row, *_ = harmonic.pairs(settings, gammas, fell, SETTINGS["bootstrap"])
+    column, frame = fell[:, :, 0].mean(axis=0)
+    assert row["difference"] == pytest.approx(frame - column)
+    assert (row["probability_lighter"], row["probability_heavier"]) == (column, frame)
 
 
 def test_the_benefit_ends_where_its_isotonic_fit_is_zero():
@@ -302,11 +334,13 @@ def test_counts_are_of_outcomes_that_are_known(monkeypatch):
     grids = {"lowest": 1.0, "highest": 2.0}
     settings = {"mass_ratios": [0.0, 1.0], "slendernesses": [10.0], "sample": 1}
     settings |= {"sizes": grids | {"points": 1}, "factors": grids | {"points": 4}}
+    settings |= {"by_structure": {"names": ["trilith"], "factors": 4}}
     settings |= {"capacity": {"structure": "temple"}}
     made = records.compute(settings, {"tightened": 1e-12}, CONFIG["structures"], ["one"])
     (row,) = made["table"]
     names = ("only_lighter", "only_heavier")
     assert [row[name] for name in names] == [1, 1]
+    assert made["structures"] == [{"structure": "trilith"} | row]
     known = {
         0.05: {"one": (0.4, 0.5), "two": (0.5, 0.4), "three": (0.4, 0.44)},
         0.1: {"one": (0.4, 0.6), "two": (0.5, 0.5), "three": (0.4, math.nan)},
@@ -318,7 +352,9 @@ def test_counts_are_of_outcomes_that_are_known(monkeypatch):
         for place, gamma in enumerate((0.0, 1.0))
     ).set_axis(["record", "mass_ratio", "window", "capacity"], axis=1)
     settings["capacity"]["windows"] = [0.05, 0.1]
-    found = records.findings(pd.DataFrame([row]), capacity, settings)
+    found = records.findings(
+        pd.DataFrame([row]), pd.DataFrame(made["structures"]), capacity, settings
+    )
     holds = {name: one["holds"] for name, one in found.items()}
     assert not any(holds.values())
     assert found["pair_0_1"] | {"only_lighter": 1, "only_heavier": 1} == found["pair_0_1"]

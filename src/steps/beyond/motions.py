@@ -11,6 +11,7 @@ import numpy as np
 from scipy.special import bdtr
 
 from replication.step import check, run, truth, value
+from steps.shared import harmonic
 from steps.shared.plain import beside_a_boundary, check_sample, overturns
 from steps.shared.sweep import (
     FREE_FALL,
@@ -56,6 +57,10 @@ def compute(settings, structures, shards):
     for name in columns:
         fell = [outcomes(shards, f"{each}: {name}")[:, frames_only] == 1 for each in names]
         tables["pairs"] += pairs(name, fell, settings)
+    gammas, narrow = [0.0, *settings["mass_ratios"]], settings["harmonic"]
+    overturned = harmonic.outcomes(narrow, gammas, column)
+    check_sample(harmonic.sampled(narrow, gammas, overturned, column))
+    tables["harmonic"] = harmonic.pairs(narrow, gammas, overturned, settings["bootstrap"])
     return tables
 
 
@@ -177,13 +182,16 @@ def sampled(shards, settings, column):
             yield block, record, up, factor, result == 1
 
 
-def findings(motions, motions_gains, motions_pairs, settings, structures):
+def findings(motions, motions_gains, motions_pairs, motions_harmonic, settings, structures):
     """Return orders and gains; `gain_trilith` and so on are those of γ as stated, by structure."""
     gains = motions_gains
     equal = gains[gains.mass_ratio == settings["mass_ratio"]]
     by_height = sorted(settings["structures"], key=lambda name: structures[name]["half_height"])
     rising = equal.pivot(index="model", columns="structure", values="gain")[by_height]
     rises = (np.diff(rising, axis=1) > 0.0).all(axis=1)
+    with_column = motions_harmonic.lighter == 0.0
+    reversals = motions_harmonic[~with_column & (motions_harmonic.difference_low > 0.0)]
+    broadband = (motions_pairs.ratio_high < 1.0).all()
     return {
         f"gain_{name}": truth(
             (some.gain_low > 0.0).all(),
@@ -202,10 +210,19 @@ def findings(motions, motions_gains, motions_pairs, settings, structures):
         "gain_rises_with_height": value(rises.sum(), 0.0, models=len(rises)),
         "some_only_frame": truth((motions.only_frame > 0).all()),
         "probability_is_lower": truth(
-            (motions_pairs.ratio_high < 1.0).all(),
+            broadband and reversals.empty,
+            holds_when=broadband,
+            condition="the motions are broad-band or near-fault, as in the four sets",
             pairs=len(motions_pairs),
             least=motions_pairs.ratio.min(),
             most=motions_pairs.ratio.max(),
+        ),
+        "column_overturns_most_often": truth(
+            broadband and (motions_harmonic[with_column].difference < 0.0).all()
+        ),
+        "order_of_frames_can_turn": truth(
+            len(reversals) > 0,
+            **reversals.sort_values("difference").iloc[-1:].squeeze().to_dict(),
         ),
         "outcomes_that_change": value(motions.changed.max(), 0.0, change=settings["change"]),
     }

@@ -18,30 +18,62 @@ BESIDE = 3  # factors on either side of a change of the outcome
 
 
 def compute(settings, solver, structures, components):
-    ratios, sizes = geometric(settings["factors"]), geometric(settings["sizes"])
-    gammas, rows, edges = settings["mass_ratios"], [], []
+    sizes, tightened = geometric(settings["sizes"]), solver["tightened"]
+    pool = [column_of(size, degrees) for degrees in settings["slendernesses"] for size in sizes]
+    finer = settings["factors"] | {"points": settings["by_structure"]["factors"]}
+    by_structure = {name: Column(**structures[name]) for name in settings["by_structure"]["names"]}
+    rows, edges, counts = [], [], []
     for path in components:
-        record, outcomes = read_record(path), {gamma: [] for gamma in gammas}
-        for degrees, size, gamma in product(settings["slendernesses"], sizes, gammas):
-            alpha = math.radians(degrees)
-            frame = RockingFrame(Column(size * math.sin(alpha), size * math.cos(alpha)), gamma)
-            factors = ratios * frame.uplift_acceleration / record.peak_acceleration
-            found = overturned(frame, record, factors, solver["tightened"])
-            outcomes[gamma].append(found)
-            changes = np.flatnonzero(found[:-1] * found[1:] == -1)
-            edges += [(frame.block(), record, None, factors[at], found[at] == 1) for at in changes]
-        for light, heavy in combinations(gammas, 2):
-            one, other = np.array(outcomes[light]), np.array(outcomes[heavy])
-            rows.append(
-                {"record": record.name, "lighter": light, "heavier": heavy}
-                | {"only_lighter": ((one == 1) & (other == -1)).sum()}
-                | {"only_heavier": ((one == -1) & (other == 1)).sum()}
-            )
+        record = read_record(path)
+        outcomes, changes = scaled(
+            pool, settings, geometric(settings["factors"]), record, tightened
+        )
+        rows += [{"record": record.name} | row for row in compared(outcomes)]
+        edges += changes
+        for name, column in by_structure.items():
+            outcomes, _ = scaled([column], settings, geometric(finer), record, tightened)
+            labels = {"structure": name, "record": record.name}
+            counts += [labels | row for row in compared(outcomes)]
     at = np.linspace(0, len(edges) - 1, settings["sample"]).astype(int)
     check_sample(edges[place] for place in at)
     spec, column = settings["capacity"], Column(**structures[settings["capacity"]["structure"]])
     records = map(read_record, components)
-    return {"table": rows, "capacity": [*capacities(spec, column, records, solver["tightened"])]}
+    capacity_rows = [*capacities(spec, column, records, tightened)]
+    return {"table": rows, "structures": counts, "capacity": capacity_rows}
+
+
+def column_of(size, degrees):
+    """Return the column of a size (m) and a slenderness (degrees)."""
+    return Column(size * math.sin(math.radians(degrees)), size * math.cos(math.radians(degrees)))
+
+
+def scaled(columns, settings, ratios, record, tightened):
+    """Return for each γ the outcomes of its frames on columns, and the changes between factors.
+
+    `ratios` are those of the peak acceleration to the uplift acceleration of each column.
+    """
+    outcomes, changes = {}, []
+    for gamma in settings["mass_ratios"]:
+        rows = []
+        for frame in (RockingFrame(column, gamma) for column in columns):
+            factors = ratios * frame.uplift_acceleration / record.peak_acceleration
+            row = overturned(frame, record, factors, tightened)
+            edges = np.flatnonzero(row[:-1] * row[1:] == -1)
+            changes += [(frame.block(), record, None, factors[k], row[k] == 1) for k in edges]
+            rows.append(row)
+        outcomes[gamma] = np.array(rows)
+    return outcomes, changes
+
+
+def compared(outcomes):
+    """Yield for each pair of γ how often only the lighter frame, or only the heavier, overturns."""
+    for light, heavy in combinations(outcomes, 2):
+        lighter, heavier = outcomes[light], outcomes[heavy]
+        yield (
+            {"lighter": light, "heavier": heavy}
+            | {"only_lighter": ((lighter == 1) & (heavier == -1)).sum()}
+            | {"only_heavier": ((lighter == -1) & (heavier == 1)).sum()}
+        )
 
 
 def capacities(spec, column, records, tightened):
@@ -91,12 +123,14 @@ def overturned(frame, record, factors, tightened):
     return outcomes
 
 
-def findings(records, records_capacity, settings):
+def findings(records, records_structures, records_capacity, settings):
     at = ["window", "record"]
     by_mass = records_capacity.pivot(index=at, columns="mass_ratio", values="capacity")
     gains, undecided = by_mass.div(by_mass[0.0], axis=0) - 1.0, by_mass.isna()
     middles, stated = gains.groupby("window").median(), settings["capacity"]["windows"][0]
-    counts = records.groupby(["lighter", "heavier"])[["only_lighter", "only_heavier"]].sum()
+    cases = ["only_lighter", "only_heavier"]
+    counts = records.groupby(["lighter", "heavier"])[cases].sum()
+    by_structure = records_structures.groupby(["structure", "lighter", "heavier"])[cases].sum()
     return (
         {
             "heavier_is_safer": truth(
@@ -116,6 +150,10 @@ def findings(records, records_capacity, settings):
         | {
             f"pair_{light:g}_{heavy:g}": truth(row.only_heavier < row.only_lighter, **row)
             for (light, heavy), row in counts.iterrows()
+        }
+        | {
+            f"{name}_{light:g}_{heavy:g}": truth(row.only_heavier < row.only_lighter, **row)
+            for (name, light, heavy), row in by_structure.iterrows()
         }
         | {
             f"gain_{gamma:g}": truth(
