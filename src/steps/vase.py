@@ -280,11 +280,13 @@ def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> 
     under = vase.set_index(["structure", "mass_ratio", "shape"]).minimum_overturning
     raised = [under[FRAME, math.inf, s] / under[COLUMN, 0.0, s] - 1.0 for s in settings["shapes"]]
     quoted = vase[vase["shape"] == "one-cosine"].set_index(["structure", "mass_ratio"])
+    gamma = settings["picture"]["mass_ratio"]
+    wider = [under[PORTAL, gamma, s] > under[FRAME, gamma, s] for s in settings["shapes"]]
     at = {
         "minimum_of_the_column": (COLUMN, 0.0),
         "minimum_at_mass_ratio_one": (FRAME, 1.0),
         "minimum_of_the_heaviest": (FRAME, math.inf),
-        "minimum_of_the_portal": (PORTAL, settings["picture"]["mass_ratio"]),
+        "minimum_of_the_portal": (PORTAL, gamma),
     }
     return {
         "frame_always_raises": truth(
@@ -296,6 +298,7 @@ def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> 
             exceptions_of_wide_intervals=wide,
         ),
         "support_decides": ranked(table, longest),
+        "portal_is_harder_to_overturn": truth(all(wider), shapes=len(wider)),
         "least_raise": value(min(raised), 1e-6),
         "largest_raise": value(max(raised), 1e-6),
     } | {

@@ -222,7 +222,11 @@ def findings(motions, motions_gains, motions_pairs, motions_harmonic, settings, 
         ),
         "order_of_frames_can_turn": truth(
             len(reversals) > 0,
-            **reversals.sort_values("difference").iloc[-1:].squeeze().to_dict(),
+            **{
+                name: f"{number:g}" if name in ("lighter", "heavier") else number
+                for row in reversals.nlargest(1, "difference").to_dict("records")
+                for name, number in row.items()
+            },
         ),
         "outcomes_that_change": value(motions.changed.max(), 0.0, change=settings["change"]),
     }
