@@ -175,6 +175,7 @@ for document in ["report", "supplement"]:
 rule site:
     input:
         made(".svg"),
+        made(".gif"),
         made(".csv"),
         made(".json"),
         sources=glob("paper/*.typ") + ["paper/references.bib", "CITATION.cff"],

@@ -31,7 +31,7 @@ PLAYS = 3
 PLACES = {"column": 0.0, "fixed mass": 10.2, "frame": 22.6}  # m: the middle of each
 NAMES = {
     "column": "Column",
-    "fixed mass": "Vase: mass fixed on top",
+    "fixed mass": "Fixed mass on top",
     "frame": "Frame: mass carried freely",
 }
 COLOURS = {"overturns": (P.OVERTURNED, P.OVERTURNS), "survives": (P.ROCKS, P.SURVIVES)}
@@ -132,7 +132,18 @@ def pictures(settings: dict, column: dict) -> list[Image.Image]:
         canvas.draw()
         made.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB"))
     plt.close(figure)
-    return [picture.quantize(palette=palette(), dither=Image.Dither.NONE) for picture in made]
+    return [*map(quantized, made)]
+
+
+def quantized(picture: Image.Image) -> Image.Image:
+    """Return a picture in the colours of the palette; Pillow would take a near white for white."""
+    colours = palette()
+    reduced = picture.quantize(palette=colours, dither=Image.Dither.NONE)
+    white = colours.getpalette().index(255) // 3
+    places = np.where((np.asarray(picture) == 255).all(axis=-1), white, np.asarray(reduced))
+    exact = Image.fromarray(places.astype(np.uint8), "P")
+    exact.putpalette(colours.getpalette())
+    return exact
 
 
 def palette() -> Image.Image:

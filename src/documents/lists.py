@@ -19,8 +19,8 @@ from replication.verdicts import counted, decimals
 
 NUMBERS = """# Numbers and their sources
 
-Every result of the run, by its rule, with its estimated error. Then the cells of tables and the
-inputs that article and supplement print. The lines below a result are parts of it.
+Every result of the run, by its rule, with the estimated error of its arithmetic. Then the cells of
+tables and the inputs that article and supplement print. The lines below a result are parts of it.
 """
 CLAIMS = """# Claims and verdicts
 
@@ -35,12 +35,12 @@ Claims that are not plainly confirmed come first, with their condition and a rem
 
 We worked from a transcription of the paper. *Our copy differs* where a sign, letter, bracket,
 radical or number in it contradicts the paper's own premises. There we judge the evident meaning.
-The last list has these places, to be compared with the print. A claim that is confirmed there holds
-in a mended form, as the counts say.
+The last list has these places, to be compared with the print. The counts call these claims
+confirmed in a mended form.
 """
 TITLES = {"paper": "The paper's claims", "ours": "Claims of our own"}
 ORDER = ["refuted", "qualified", "supported", "not tested", "by definition", "confirmed"]
-HEAD = "| claim | printed | computed | verdict | from |\n|---|---|---|---|---|"
+HEAD = "| claim | verdict | from |\n|---|---|---|"
 
 
 class Docs:
@@ -127,12 +127,12 @@ class Run(NamedTuple):
 
 def numbers(run: Run, to: Docs) -> str:
     """Return the list of numbers."""
-    text = [NUMBERS]
+    text = [NUMBERS, f"Rules: {', '.join(f'[{rule}](#rule-{rule})' for rule in run.findings)}.\n"]
     for rule, results in run.findings.items():
         about = run.rules[rule]
         tables = [to.table(Path(path).stem) for path in [*about["tables"], *about["reads"]]]
         text += [
-            f"## {rule}\n",
+            f'<a id="rule-{rule}"></a>\n\n## {rule}\n',
             f"{to.file(about['script'])} draws these from {', '.join(tables)}. Again: "
             f"`snakemake --cores 2 --force results/findings/{rule}.json`\n",
         ]
@@ -158,7 +158,7 @@ def _entry(anchor: str, name: str, value: str, more: str, to: Docs, indent: str 
 def _shown(result: Mapping[str, Any]) -> str:
     """Return the value of a finding with its error, or whether it holds."""
     if "value" in result:
-        error = f" ± {result['error']:.2g}" if result["error"] else ""
+        error = f" ± {result['error']:.2g} (numerical error)" if result["error"] else ""
         unit = f" {result['unit']}" if result["unit"] else ""
         return decimals(result["value"], result["error"]) + error + unit
     words = {True: "holds", False: "does not hold"}
@@ -275,7 +275,11 @@ def claims(run: Run, to: Docs) -> str:
 
 def _claim(row: dict[str, Any], run: Run, to: Docs) -> str:
     """Return a claim as a row of a table."""
-    statement = f'<a id="{row["id"]}"></a>`{row["id"]}`, {row["where"]}. {row["statement"]}'
+    statement = f'<a id="{row["id"]}"></a>{row["statement"]}'
+    if row["shown"]:
+        printed = f"{row['printed']} {row['unit']}".strip()
+        statement += f" Printed: {printed}. Computed: {row['shown']}."
+    statement += f" {row['where']} (`{row['id']}`)."
     if row["verdict"] != "confirmed" or row["differs"]:
         condition = f"True if {row['condition']}. " if row.get("condition") else ""
         statement += f"<br>{condition}{row['remark']}"
@@ -286,8 +290,6 @@ def _claim(row: dict[str, Any], run: Run, to: Docs) -> str:
         sources.insert(0, f"[{finding}]({to.numbers}#{finding})")
     cells = (
         statement,
-        f"{row['printed']} {row['unit']}".strip() if row["shown"] else "",
-        row["shown"],
         to.verdict(row["verdict"]) + (" (our copy differs)" if row["differs"] else ""),
         ", ".join(sources),
     )

@@ -21,21 +21,26 @@ from replication.config import read_yaml
 from replication.job import log_to, write
 from replication.numbers import Quote
 
-PAGES = {  # at the head of each page
-    "index.html": "Article",
-    "supplement.html": "Supplement",
-    "claims.html": "Claims",
-    "numbers.html": "Numbers",
-    "explorer.html": "Play",
-    "notebook_paper.html": "Notebook",
-    "notebook_derivation.html": "Derivation",
-    "notebook_play.html": "Library",
-    "functions.html": "Functions",
-    "sources.html": "Sources",
-    "report.pdf": "PDF",
+PAGES = {  # at the head of each page, by what a reader wants
+    "Read": {"index.html": "Article", "supplement.html": "Supplement", "report.pdf": "PDF"},
+    "Check": {"claims.html": "Claims", "numbers.html": "Numbers", "sources.html": "Code"},
+    "Try": {
+        "explorer.html": "Play",
+        "notebook_paper.html": "Paper’s results",
+        "notebook_derivation.html": "Derivation",
+        "notebook_play.html": "First steps",
+        "functions.html": "Functions",
+    },
 }
 ACCENTS = {0x302: "^", 0x307: "˙", 0x308: "¨"}
 """A combining accent has no width, so that browsers would set it beside its letter."""
+SEARCH = """<p><label>Search the numbers <input type="search" id="search"></label></p>
+<script>
+document.getElementById("search").addEventListener("input", ({ target }) => {
+  for (const entry of document.querySelectorAll("main > ul > li"))
+    entry.hidden = !entry.textContent.toLowerCase().includes(target.value.toLowerCase())
+})
+</script>"""
 FRAME = """<!DOCTYPE html>
 <html lang="en-GB">
 <head>
@@ -57,11 +62,14 @@ FRAME = """<!DOCTYPE html>
 def head(name: str) -> str:
     """Return the links at the head of a page; `name` is its path from the folder of the site."""
     up = "../" * name.count("/")
-    links = " ".join(
-        f'<a href="{up}{page}"{" aria-current=page" * (page == name)}>{label}</a>'
-        for page, label in PAGES.items()
-    )
-    return f'<nav class="pages" aria-label="Pages">{links}</nav>'
+    groups = []
+    for group, pages in PAGES.items():
+        links = " ".join(
+            f'<a href="{up}{page}"{" aria-current=page" * (page == name)}>{label}</a>'
+            for page, label in pages.items()
+        )
+        groups.append(f"<span><b>{group}</b> {links}</span>")
+    return f'<nav class="pages" aria-label="Pages">{" ".join(groups)}</nav>'
 
 
 def framed(name: str, title: str, body: str, kind: str = "list") -> str:
@@ -165,7 +173,7 @@ def site(job: Any) -> dict[str, str | bytes]:
     )
     in_page = {name: page for name in captions for page in pages if f'fig-{name}"' in pages[page]}
     to, docs = lists.Site(quotes, in_page), lists.Docs()
-    pages["numbers.html"] = listed("numbers.html", lists.numbers(run, to))
+    pages["numbers.html"] = listed("numbers.html", lists.numbers(run, to), SEARCH)
     pages["claims.html"] = listed("claims.html", lists.claims(run, to), buttons(run.claims))
     index = "\n".join(f"- {to.file(path)}" for path in job.input.scripts)
     pages["sources.html"] = listed("sources.html", f"# Sources of this run\n\n{index}\n")
@@ -176,7 +184,7 @@ def site(job: Any) -> dict[str, str | bytes]:
         pages[name] = headed(name, path.read_text("utf-8"), style)
     font = b64encode(Path(job.input.font).read_bytes()).decode()
     pages["site.css"] = style + Path(job.input.style).read_text("utf-8").replace("{font}", font)
-    folders = {".svg": "figures/", ".csv": "tables/", ".pdf": ""}
+    folders = {".svg": "figures/", ".gif": "figures/", ".csv": "tables/", ".pdf": ""}
     copies = [path for path in map(Path, job.input) if path.suffix in folders]
     files = {folders[path.suffix] + path.name: path.read_bytes() for path in copies}
     return {f"{job.output.site}/{name}": content for name, content in (pages | files).items()} | {

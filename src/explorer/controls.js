@@ -36,7 +36,7 @@ class Controls {
     structure.append(
       ...["width", "height", "g", "L"].map((key) => this.number(key)),
       this.choice("cap", "Cap beam", { free: "free: frame", fixed: "fixed: portal" }),
-      this.choice("vase", "Vase", { shown: "shown", hidden: "hidden" }),
+      this.choice("vase", "Fixed mass", { shown: "shown", hidden: "hidden" }),
       this.choice("eq", "Equation", { exact: "exact", linearised: "linearised" }), this.number("r"),
     );
     motion.append(this.shapes());

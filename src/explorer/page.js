@@ -4,7 +4,7 @@
 const DATA = JSON.parse(byId("data").textContent);
 const ENGINE = URL.createObjectURL(new Blob([...document.querySelectorAll("script.engine")].map((script) => script.textContent), { type: "text/javascript" }));
 const CASES = DATA.cases.map((each) => encode({ ...DEFAULTS, ...each.state }));
-const TITLES = { column: "Column", vase: "Vase: mass fixed on top", frame: "Frame: mass carried freely", portal: "Portal: cap beam fixed to both" };
+const TITLES = { column: "Column", "fixed mass": "Fixed mass: on top of a column", frame: "Frame: mass carried freely", portal: "Portal: cap beam fixed to both" };
 const NARROW = matchMedia("(max-width: 700px)"), CALM = matchMedia("(prefers-reduced-motion: reduce)");
 
 const files = new Map(); // records by name; `opened` numbers those that were opened, so that a file of the same name is another
@@ -51,6 +51,7 @@ worker.onmessage = hear;
 function frameMap() {
   const file = fileOf(state), other = state.cap === "fixed" ? "the portal, or where it leaves the ground" : "the frame";
   spectrumChart.frame(planeOf(state, file), planeKeys(state, file));
+  byId("islands").hidden = !file;
   byId("across").textContent = file ? "" : "ω is 2π over the period, and p = √(3g/(4R)) is smaller for a larger column. ";
   byId("map-title").textContent = `Overturning of the column and of ${other}`;
   for (const name of document.querySelectorAll("#key .other")) name.textContent = other.split(",")[0];
@@ -206,6 +207,7 @@ function redraw() {
   for (const place of [byId("strip1"), byId("rows").children[1]]) place.hidden = state.vase === "hidden";
   frameMap();
   const same = CASES.indexOf(encode(state));
+  byId("fixed").hidden = state.cap !== "fixed";
   byId("note").textContent = same >= 0 ? DATA.cases[same].note : "";
   [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === same)));
 }
@@ -301,7 +303,13 @@ DATA.cases.forEach((each) => {
 });
 byId("copy").addEventListener("click", () => {
   settle();
-  navigator.clipboard.writeText(location.href).then(() => (byId("copy").textContent = "Copied"), () => prompt("The address of this case", location.href));
+  const say = (text) => (byId("copy").textContent = text);
+  const isOpened = state.shape === "record" && !DATA.records.some(({ name }) => name === state.record); // the address holds no samples
+  const copied = () => {
+    say(isOpened ? "Copied, without the record" : "Copied");
+    setTimeout(say, 3000, "Copy link");
+  };
+  navigator.clipboard.writeText(location.href).then(copied, () => prompt("The address of this case", location.href));
 });
 addEventListener("hashchange", (event) => {
   const { hash } = new URL(event.newURL); // location may be that of a state that settles now

@@ -74,7 +74,7 @@ class Scene {
         left = centre + reach[k][1];
         this.groups[k] = drawn("g", { transform: `translate(${centre} ${ground})` }, this.moving);
         const name = drawn("text", { x: centre, y: ground + 0.2 * h + 16 * pixel, "font-size": 14 * pixel }, this.svg);
-        name.textContent = ["column", "vase", fixed ? "portal" : "frame"][k];
+        name.textContent = ["column", "fixed mass", fixed ? "portal" : "frame"][k];
       }
     });
 

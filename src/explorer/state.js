@@ -18,7 +18,7 @@ const CHOICES = {
   shape: [...Object.keys(SHAPES), "record"],
 };
 const DEFAULTS = {
-  width: 1, height: 6, g: 1, L: 5, r: null, cap: "free", vase: "shown", eq: "exact", shape: "one-cosine", a: 0.31, T: 1.5,
+  width: 1, height: 6, g: 1, L: 5, r: null, cap: "free", vase: "shown", eq: "exact", shape: "one-cosine", a: 0.29, T: 1.5,
   D: 12, start: "smooth", x: 1, record: "",
 };
 

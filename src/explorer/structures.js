@@ -39,7 +39,7 @@ function oneBody(name, B, H, inertia) {
 function vase(b, h, gamma) {
   const cap = gamma === Infinity ? 1 : gamma / (1 + gamma);
   const inertia = (1 - cap) * ((4 / 3) * (b * b + h * h)) + cap * (b * b + 4 * h * h);
-  return oneBody("vase", b, (1 - cap) * h + cap * 2 * h, inertia);
+  return oneBody("fixed mass", b, (1 - cap) * h + cap * 2 * h, inertia);
 }
 
 /** The cap beam fixed to both columns: one body that rocks about its outer edges. */

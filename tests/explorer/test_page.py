@@ -16,7 +16,7 @@ TYPE = """(() => {
 
 
 def test_promise_that_the_library_does_not_keep_stops_the_build():
-    state = {"width": 1.0, "height": 6.0, "g": 1.0, "shape": "one-cosine", "a": 0.31, "T": 1.5}
+    state = {"width": 1.0, "height": 6.0, "g": 1.0, "shape": "one-cosine", "a": 0.29, "T": 1.5}
     case = {"title": "A", "note": "", "state": state, "outcomes": ["survives"] * 3}
     with pytest.raises(ValueError, match=r"'A' promises \['survives'.* computes \['overturns'"):
         checked_cases([case], {})
