@@ -6,7 +6,15 @@ import re
 import pytest
 import sympy as sp
 
-from derivation import check_printed, consequences, extensions, fixed_mass, reversals, theorems
+from derivation import (
+    check_printed,
+    consequences,
+    extensions,
+    fixed_mass,
+    guarantee,
+    reversals,
+    theorems,
+)
 from derivation.fixed_mass import (
     I_b,
     fixed_motion,
@@ -125,11 +133,37 @@ _CAP = gamma * sp.sin(alpha) ** 2 / 50
 REVERSALS = [
     ("exact", swapped, "mass_ratio_leaves_only_the_time_scale"),
     ("exact", swapped, "larger_rotation_feels_the_larger_push"),
-    ("exact", swapped, "far_enough_out_nothing_brings_it_back"),
+    ("exact", swapped, "beyond_alpha_the_push_is_additive"),
+    ("exact", swapped, "push_above_the_bound_reverses_the_order"),
     ("exact", swapped, "push_in_one_direction_only_helps_that_side"),
     ("linearised", pushed_by_angle, "difference_is_driven_by_the_heavier_frame"),
     ("linearised", pushed_by_angle, "difference_grows_under_vertical_acceleration"),
     ("frequency_ratio", lambda: 1 + gamma, "mass_ratio_leaves_only_the_time_scale"),
+]
+outward = guarantee.outward_acceleration
+GUARANTEE = [
+    *(
+        ("outward_acceleration", lambda s: -outward(s), proof)
+        for proof in (
+            "ground_acceleration_drops_out",
+            "level_does_not_rise_between_impacts",
+            "linearised_level_does_not_rise",
+        )
+    ),
+    *(
+        ("LEVEL", guarantee.LEVEL + guarantee._Y**2 * guarantee._C**2, proof)
+        for proof in (
+            "level_does_not_rise_between_impacts",
+            "level_at_alpha_is_the_limit",
+            "vertical_acceleration_changes_the_level",
+        )
+    ),
+    (
+        "frequency_ratio",
+        lambda: 1 / reversals.frequency_ratio(),
+        "guaranteed_velocity_rises_with_mass",
+    ),
+    ("loss", lambda: 2 * guarantee.restitution(), "guaranteed_velocity_rises_with_mass"),
 ]
 EXTENSIONS = [
     ("frame_of_columns", lambda s: N * right(s), "columns_count_only_in_the_mass_ratio"),
@@ -156,6 +190,8 @@ def of(module, name, spoil, proof):
 WRONG = [
     *((reversals, *row) for row in REVERSALS),
     *((extensions, *row) for row in EXTENSIONS),
+    *((guarantee, *row) for row in GUARANTEE),
+    of(guarantee, "restitution", lambda root: root + _SMALL, "loss_per_impact_is_stated"),
     *(
         of(fixed_mass, "fixed_tangent", lambda t, spoil=spoil: t * (1 + spoil), proof)
         for spoil, proof in (

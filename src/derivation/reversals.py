@@ -7,7 +7,7 @@ and feel the same ü_g = a g. Until an impact φ = |θ| obeys φ̈ = p² F(φ), 
 
 so that y = φ/p² obeys ÿ = F(p² y), and z = y₁ − y₂ starts from z = ż = 0. So it does after every
 common rest. Over ground with the vertical acceleration v g, v > −1, F becomes F_v. The text that
-joins the proofs is in the supplement, "Exact statements".
+joins the proofs is in the supplement, "Theorems".
 """
 
 from __future__ import annotations
@@ -105,42 +105,83 @@ def lighter_frame_has_the_larger_growing_term() -> bool:
     return bool(sp.expand(of_lighter - of_heavier - terms) == 0)
 
 
-def larger_rotation_feels_the_larger_push() -> bool:
-    """Exact, ∂F/∂φ = cos(α − φ) − s a sin(α − φ) ≥ 0 for s a ≤ cot α and −s a ≤ cot(φ − α).
+def beyond_alpha_the_push_is_additive() -> bool:
+    """Exact, beyond α, tanh x = sin(φ − α) and Y = (x + α)/p² obey Ÿ = sinh x − s a + p² tanh x Ẏ².
 
-    Up to α the first condition is sufficient, beyond α the second.
+    There sinh x = tan(φ − α). At φ = α the coordinate x = φ − α joins it, with equal first and
+    second derivatives. A jump D of the outward ground velocity over g adds D to Ẏ beyond α.
     """
-    within, beyond, x, slope = sp.symbols("lambda mu x slope", positive=True)
+    rate, p = sp.symbols("rate p", positive=True)
+    beyond = sp.Symbol("mu", positive=True)
+    stretched = sp.atanh(sp.sin(beyond))
+    first, second = (sp.simplify(sp.diff(stretched, beyond, order)) for order in (1, 2))
+    identities = [first.subs(beyond, 0) == 1, second.subs(beyond, 0) == 0]
+    for side in SIDES:
+        force = exact(side).subs(_phi, alpha + beyond)
+        # p² Ÿ = ẍ = x' φ̈ + x'' φ̇², with φ̈ = p² F and x' φ̇ = ẋ = p² Ẏ
+        change = first * force + second * (p * rate / first) ** 2
+        stated = sp.tan(beyond) - side.sign * _a + p**2 * sp.sin(beyond) * rate**2
+        jump = sp.diff(first * force, _a) + side.sign
+        identities += [sp.simplify(change - stated) == 0, sp.simplify(jump) == 0]
+    return all(identities)
+
+
+def larger_rotation_feels_the_larger_push() -> bool:
+    """Exact, H = F (x ≤ 0) and H = sinh x − s a (x ≥ 0) do not fall with x if s a ≤ cot(α − φ).
+
+    Beyond α no bound is necessary. The bound rises with φ: s a ≤ cot(α − φ₂) is sufficient between
+    φ₂ and any φ₁ > φ₂, and s a ≤ cot α everywhere.
+    """
+    within, x, slope = sp.symbols("lambda x slope", positive=True)
     push = sp.Symbol("push", real=True)
-    rise_within, rise_beyond = 1 - push * sp.tan(within), 1 + push * sp.tan(beyond)
+    rise_within = 1 - push * sp.tan(within)
     identities = []
     for side in SIDES:
         rise = sp.diff(exact(side), _phi).subs(_a, side.sign * push)
-        # in tangents: x = tan(α − φ) up to α, x = tan(φ − α) beyond
         up_to = sp.expand_trig(rise.subs(_phi, alpha - within)) / sp.cos(within)
-        after = sp.expand_trig(rise.subs(_phi, alpha + beyond)) / sp.cos(beyond)
-        identities += [
-            sp.simplify(up_to - rise_within) == 0,
-            sp.simplify(after - rise_beyond) == 0,
-        ]
-    # least at s a = cot α, where tan α = x + slope > x
+        identities.append(sp.simplify(up_to - rise_within) == 0)
+    # least at s a = cot(α − φ₂), where tan(α − φ₂) = x + slope > x = tan(α − φ)
     least = sp.factor(rise_within.subs({push: 1 / (x + slope), sp.tan(within): x}))
-    return all(identities) and bool(least.is_positive)
+    beyond = sp.diff(sp.sinh(x) - push, x)
+    return all(identities) and bool(least.is_positive) and bool(beyond.is_positive)
 
 
-def far_enough_out_nothing_brings_it_back() -> bool:
-    """Exact, F = cos(φ − α) (tan(φ − α) − s a) ≥ 0 where tan(φ − α) ≥ s a.
+def difference_never_falls_in_the_exact_equation() -> bool:
+    """Z = Y₁ − Y₂ obeys Z̈ − b Ż = H₁ − H₂ + (p₁² T₁ − p₂² T₂) Ẏ₁², b = p₂² T₂ (Ẏ₁ + Ẏ₂).
 
-    At tan(φ − α) = max(s a) the outward push may be cot(φ − α) = 1/max(s a): with
-    max(s a) max(−s a) < 1, F rises with φ up to a rotation from which nothing returns.
+    T is tanh x beyond α and 0 up to it, and x₁ − x₂ = p₁² Z + (p₁² − p₂²) Y₂. With Z ≥ 0 the right
+    side is not negative, as H and T = tanh x do not fall with x: so Ż exp(−∫ b dt) does not fall.
     """
-    beyond, inward = sp.symbols("mu inward", positive=True)
-    identities = []
-    for side in SIDES:
-        force = exact(side).subs({_phi: alpha + beyond, _a: side.sign * _tau})
-        form = sp.cos(beyond) * (sp.tan(beyond) - _tau)
-        identities.append(sp.simplify(sp.expand_trig(force) - form) == 0)
-    return all(identities) and sp.simplify(sp.cot(sp.atan(inward)) * inward) == 1
+    forces, terms, rates = (sp.symbols(f"{name}_1 {name}_2", real=True) for name in "HTY")
+    squares = p_1**2, p_2**2
+    one, two = (
+        force + square * term * rate**2
+        for force, square, term, rate in zip(forces, squares, terms, rates, strict=True)
+    )
+    b = p_2**2 * terms[1] * sum(rates)
+    driven = forces[0] - forces[1]
+    driven += (squares[0] * terms[0] - squares[1] * terms[1]) * rates[0] ** 2
+    excess = p_1**2 * (_y + _z) - p_2**2 * _y - (p_1**2 * _z + (p_1**2 - p_2**2) * _y)
+    same = sp.expand(one - two - b * (rates[0] - rates[1]) - driven) == 0
+    return bool(same and sp.expand(excess) == 0)
+
+
+def push_above_the_bound_reverses_the_order() -> bool:
+    """After a small jump W of Ẏ and a constant inward push c > cot α, frame 1 has the first impact.
+
+    To the leading order Y = W t − D t²/2 with D = sin α + c cos α, and at the common return
+    T = 2 W/D the difference is Z = −(c sin α − cos α)(p₁² − p₂²) W T³/12.
+    """
+    jump, push, time, back = sp.symbols("W c t T", positive=True)
+    force = exact(SIDES[1]).subs(_a, push)
+    fall = -force.subs(_phi, 0)
+    slope = sp.diff(force, _phi).subs(_phi, 0)  # of F with φ = p² Y
+    course = jump * time - fall * time**2 / 2
+    apart = (p_1**2 - p_2**2) * slope * sp.integrate((back - time) * course, (time, 0, back))
+    stated = -(push * sp.sin(alpha) - sp.cos(alpha)) * (p_1**2 - p_2**2) * jump * back**3 / 12
+    return bool(
+        sp.simplify(apart.subs(back, 2 * jump / fall) - stated.subs(back, 2 * jump / fall)) == 0
+    )
 
 
 def difference_grows_under_vertical_acceleration() -> bool:
