@@ -242,6 +242,7 @@ localrules:
     friction,
     functions,
     gaps,
+    guarantee,
     kernel,
     motions,
     notebook_derivation,

@@ -211,6 +211,28 @@ rule vase:
         "../src/steps/vase.py"
 
 
+rule guarantee:
+    input:
+        kernel="results/kernel.compiled",
+    output:
+        guarantee=shown("results/tables/guarantee.csv"),
+        visits="results/tables/guarantee_visits.csv",
+        attack="results/tables/guarantee_attack.csv",
+        motions="results/tables/guarantee_motions.csv",
+        order="results/tables/guarantee_order.csv",
+        findings="results/findings/guarantee.json",
+    log:
+        "results/logs/guarantee.log",
+    params:
+        code=code("src/steps/guarantee.py"),
+        settings=PAPER["guarantee"],
+        structures=PAPER["structures"],
+    message:
+        "Ground velocities below which nothing overturns"
+    script:
+        "../src/steps/guarantee.py"
+
+
 rule proven:
     input:
         "results/tables/vase.csv",

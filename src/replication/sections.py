@@ -203,6 +203,15 @@ Paper = section(
         portal=CapBeam,
         picture=section("mass_ratio", amplitudes=Items[Positive], cap=Cap),
     ),
+    guarantee=section(
+        "structure mass_ratios",
+        structures=Items[StructureName],
+        visits=Rising[Count],
+        reduction=Fraction,
+        attack=section("slendernesses mass_ratios tolerance", limits=Rising[Degrees]),
+        ramps=section("slendernesses mass_ratios time_step", shares=Items[Positive]),
+        order=section("mass_ratios shape amplitude period duration samples highest"),
+    ),
     uplift=section(
         "cap mass_ratios shapes frequency_ratios points sample", amplitudes=Items[Positive]
     ),

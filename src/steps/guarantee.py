@@ -1,0 +1,300 @@
+"""Ground velocities below which nothing overturns, however the ground moves, and attacks on them.
+
+Half the range of the horizontal ground velocity below V_n excludes overturning before the n-th
+impact since rest, below V* at all times, if b/h ≤ 3/4 (Theorem 4 of the supplement):
+
+    V_n = (g/p̂) sin(α/2)/cos α/(1 + √r + … + √r^(n−1)),    V* = (g/p̂) (1 − √r) sin(α/2)/cos α.
+
+The worst motion jumps between its limits just after each impact. It is followed visit by visit, a
+visit being the motion between two impacts, and for some structures as an acceleration with ramps.
+"""
+
+import math
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from replication.step import check, run, truth
+from steps.shared.cases import column_of
+from topheavy import (
+    STANDARD_GRAVITY,
+    Column,
+    FixedMassColumn,
+    Pulse,
+    Record,
+    RockingBlock,
+    RockingFrame,
+    simulate,
+)
+
+SUPPORTS = {"frame": RockingFrame, "fixed mass": FixedMassColumn}
+FIRST = range(1, 6)  # numbers of visits n of V_n
+LIMIT = math.inf  # number of visits of V*
+BEGIN = (0.97, 1.04)  # ends of a bisection over the stated velocity, which is not their middle
+FLIGHTS = (8.0, 100.0)  # times 1/p: longest visits that are tried
+BEFORE = 1.0 - 1e-9  # share of the time of an impact, at which the block has not lost speed yet
+FORGOTTEN = (
+    1e-7  # share of a start of which so many impacts leave no more: as good as infinitely many
+)
+SETTLED = 1e-3  # the same, under a motion with ramps
+CREEP = 0.5  # share of the uplift acceleration with which a motion with ramps begins
+
+
+def velocity(block: RockingBlock, visits: float) -> float:
+    """Return V_n, or V* for infinitely many visits, m/s."""
+    root, alpha = block.restitution, block.slenderness
+    total = 1.0 / (1.0 - root) if visits == LIMIT else sum(root**k for k in range(int(visits)))
+    scale = STANDARD_GRAVITY / block.frequency_parameter
+    return scale * math.sin(alpha / 2.0) / math.cos(alpha) / total
+
+
+def break_even(column: RockingBlock, block: RockingBlock, visits: float) -> float:
+    """Return by which share a lower √r of the column alone makes both V_n equal; NaN if none."""
+
+    def excess(share: float) -> float:
+        lower = replace(column, restitution=(1.0 - share) * column.restitution)
+        return velocity(lower, visits) - velocity(block, visits)
+
+    return brentq(excess, 0.0, 1.0) if excess(0.0) * excess(1.0) < 0.0 else math.nan
+
+
+def stated(structures: dict, settings: dict) -> Iterator[dict]:
+    """Yield V_1 to V_5 and V* of columns, frames and columns with a fixed mass."""
+    for name in settings["structures"]:
+        column = Column(**structures[name])
+        for support, build in SUPPORTS.items():
+            for gamma in settings["mass_ratios"]:
+                if gamma == 0.0 and support != "frame":
+                    continue
+                block = build(column, gamma).block()
+                root = block.restitution
+                yield {
+                    "structure": name,
+                    "support": support,
+                    "mass_ratio": gamma,
+                    "slenderness_deg": math.degrees(block.slenderness),
+                    "restitution": root,
+                    **{f"velocity_{n}": velocity(block, n) for n in FIRST},
+                    "velocity": velocity(block, LIMIT),
+                    "gain": velocity(block, LIMIT) / velocity(column.block(), LIMIT) - 1.0,
+                    # vertical acceleration, g, from which no velocity is guaranteed
+                    "vertical": (1.0 - root**2) / (1.0 + root**2),
+                }
+
+
+def over_visits(column: Column, settings: dict) -> Iterator[dict]:
+    """Yield the gain of frames in V_n, and how much it depends on the √r of the column alone."""
+    alone = column.block()
+    lower = replace(alone, restitution=(1.0 - settings["reduction"]) * alone.restitution)
+    for gamma in settings["mass_ratios"][1:]:
+        block = RockingFrame(column, gamma).block()
+        for visits in (*settings["visits"], LIMIT):
+            yield {
+                "mass_ratio": gamma,
+                "visits": visits,
+                "gain": velocity(block, visits) / velocity(alone, visits) - 1.0,
+                "gain_if_lower": velocity(block, visits) / velocity(lower, visits) - 1.0,
+                "break_even": break_even(alone, block, visits),
+            }
+
+
+# The worst motion ---------------------------------------------------------------------------------
+
+
+def landing(block: RockingBlock, start: float) -> float:
+    """Return the rate (rad/s) with which a block lands that leaves the ground with one, or NaN.
+
+    It is NaN where the block overturns.
+    """
+    for flight in FLIGHTS:
+        duration = flight / block.frequency_parameter
+        response = simulate(block, velocity=start, duration=duration, samples=2)
+        if response.overturned:
+            return math.nan
+        if response.impact_times.size:
+            break
+    before = BEFORE * response.impact_times[:1]
+    return abs(float(simulate(block, velocity=start, samples=before).velocity[0]))
+
+
+def survives(block: RockingBlock, limit: float, visits: float) -> bool:
+    """Return whether a block survives so many visits under the worst motion within ±`limit`, m/s.
+
+    A jump D of the ground velocity changes φ̇ by (p²/g) D cos(α − φ), here at φ = 0.
+    """
+    factor = block.frequency_parameter**2 / STANDARD_GRAVITY * math.cos(block.slenderness)
+    jump, rate = 2.0 * limit * factor, 0.0
+    for _ in range(many(block, FORGOTTEN) if visits == LIMIT else int(visits)):
+        rate = landing(block, block.restitution * rate + jump)
+        if math.isnan(rate):
+            return False
+    return True
+
+
+def many(block: RockingBlock, share: float) -> int:
+    """Return after how many impacts less than a share of the first rate is left."""
+    return math.ceil(math.log(share) / math.log(block.restitution))
+
+
+def attacked(settings: dict) -> Iterator[dict]:
+    """Yield V_n and V* by bisection, beside the stated ones, for columns and frames of 1 m size."""
+    spec = settings["attack"]
+    cases = [
+        (angle, gamma, n)
+        for angle in spec["slendernesses"]
+        for gamma in settings["mass_ratios"]
+        for n in FIRST
+    ]
+    cases += [(angle, gamma, LIMIT) for angle in spec["limits"] for gamma in spec["mass_ratios"]]
+    for angle, gamma, visits in cases:
+        block = RockingFrame(column_of(angle), gamma).block()
+        expected = velocity(block, visits)
+        low, high = (end * expected for end in BEGIN)
+        ends = [survives(block, end, visits) for end in (low, high)]
+        check(ends == [True, False], f"α = {angle:g}°, γ = {gamma:g}, n = {visits}: {ends}")
+        while high - low > spec["tolerance"] * expected:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if survives(block, middle, visits) else (low, middle)
+        row = {"slenderness_deg": angle, "mass_ratio": gamma, "visits": visits}
+        yield row | {"stated": expected, "found": 0.5 * (low + high)}
+
+
+def worst_motion(
+    block: RockingBlock, limit: float, step: float
+) -> tuple[NDArray[np.float64], int, Any]:
+    """Return the worst motion with ramps, g, its number of visits, and the response to it.
+
+    The ground creeps to −`limit` (m/s) without uplift. Then its velocity changes to the other
+    limit within two time steps, and again after each impact of the response so far.
+    """
+    uplift = block.uplift_acceleration
+    steps = math.ceil(limit / (CREEP * uplift * STANDARD_GRAVITY * step))
+    creep = np.full(steps, -limit / (steps * STANDARD_GRAVITY * step))
+    motion, side, visits = [0.0, *creep, 0.0], 1.0, 0
+    ramp = 2.0 * limit / (STANDARD_GRAVITY * step)
+    while visits < many(block, SETTLED):
+        motion += [side * ramp, 0.0]
+        visits, side = visits + 1, -side
+        with warnings.catch_warnings(action="ignore"):  # it is no record of an earthquake
+            response = simulate(block, Record(step, motion), samples=2)
+        if response.overturned:
+            break
+        later = response.impact_times > (len(motion) - 2) * step
+        impact = response.impact_times[later][0]
+        motion += [0.0] * (math.ceil(impact / step) + 1 - len(motion))
+    return np.array(motion), visits, response
+
+
+def ramped(settings: dict) -> Iterator[dict]:
+    """Yield outcomes of worst motions with ramps, a little below and above V*."""
+    spec = settings["ramps"]
+    for angle in spec["slendernesses"]:
+        for gamma in spec["mass_ratios"]:
+            block = RockingFrame(column_of(angle), gamma).block()
+            step, alpha = spec["time_step"] / block.frequency_parameter, block.slenderness
+            for share in spec["shares"]:
+                limit = share * velocity(block, LIMIT)
+                motion, visits, response = worst_motion(block, limit, step)
+                speeds = STANDARD_GRAVITY * step * np.cumsum(motion)
+                half_range = 0.5 * (max(speeds.max(), 0.0) - speeds.min())
+                check(abs(half_range / limit - 1.0) < 1e-9, f"half the range is {half_range:g} m/s")
+                sine = math.sin(alpha / 2.0) * math.sqrt(max(1.0 - share**2, 0.0))
+                yield {
+                    "slenderness_deg": angle,
+                    "mass_ratio": gamma,
+                    "share": share,
+                    "largest_acceleration": np.abs(motion).max(),
+                    "visits": visits,
+                    "overturned": response.overturned,
+                    "peak": response.peak_rotation / alpha,
+                    "largest_peak": 1.0 - 2.0 * math.asin(sine) / alpha,
+                }
+
+
+# Until the first impact ---------------------------------------------------------------------------
+
+
+def until_first_impacts(column: Column, settings: dict) -> Iterator[dict]:
+    """Yield rotations under one pulse, from uplift to the first impact of each structure."""
+    spec = settings["order"]
+    pulse = Pulse(spec["shape"], spec["amplitude"], 2.0 * math.pi / spec["period"])
+    times = np.linspace(0.0, spec["duration"], spec["samples"])
+    for gamma in spec["mass_ratios"]:
+        response = simulate(RockingFrame(column, gamma), pulse, samples=times)
+        end = response.impact_times[0] if response.impact_times.size else math.inf
+        shares = np.abs(response.rotation) / column.slenderness
+        for time, share, push in zip(times, shares, pulse.excitation(times), strict=True):
+            if time < end and share <= spec["highest"]:
+                row = {"mass_ratio": gamma, "time": time, "acceleration": push}
+                yield row | {"rotation_over_alpha": share}
+
+
+def compute(settings: dict, structures: dict) -> dict[str, Any]:
+    """Return stated velocities, their gains over visits, attacks on them, and a first visit."""
+    column = Column(**structures[settings["structure"]])
+    return {
+        "guarantee": [*stated(structures, settings)],
+        "visits": [*over_visits(column, settings)],
+        "attack": [*attacked(settings)],
+        "motions": [*ramped(settings)],
+        "order": [*until_first_impacts(column, settings)],
+    }
+
+
+def rises(numbers: Sequence[float]) -> bool:
+    """Return whether each number is above the one before."""
+    return bool(all(low < high for low, high in pairwise(numbers)))
+
+
+def findings(
+    guarantee: pd.DataFrame,
+    guarantee_attack: pd.DataFrame,
+    guarantee_motions: pd.DataFrame,
+    guarantee_order: pd.DataFrame,
+    settings: dict,
+) -> dict[str, Any]:
+    """Return whether the stated velocities are sharp, and what they and the first visit order."""
+    attack, motions, tolerance = (
+        guarantee_attack,
+        guarantee_motions,
+        settings["attack"]["tolerance"],
+    )
+    apart = (attack.found / attack.stated - 1.0).abs()
+    below = motions.share < 1.0
+    fell = motions.overturned.astype(bool)
+    peaks = motions[below].peak <= motions[below].largest_peak + 1e-9
+    names = [*(f"velocity_{n}" for n in FIRST), "velocity"]
+    frames = guarantee[guarantee.support == "frame"].groupby("structure")
+    fixed = guarantee[guarantee.support == "fixed mass"]
+    courses = [
+        part.set_index("time").rotation_over_alpha
+        for _, part in guarantee_order.groupby("mass_ratio")
+    ]
+    ahead = [(light - heavy).dropna() for light, heavy in pairwise(courses)]
+    return {
+        "velocity_is_sharp": truth(
+            (apart < tolerance).all() and (fell == ~below).all() and peaks.all(),
+            cases=len(attack),
+            apart=tolerance,
+            motions=len(motions),
+        ),
+        "heavier_may_move_faster": truth(
+            all(rises(part.sort_values("mass_ratio")[n]) for _, part in frames for n in names)
+        ),
+        "fixed_mass_may_not": truth((fixed.gain < 0.0).all(), lowest_loss=-fixed.gain.max()),
+        "heavier_rotates_less": truth(
+            all(len(apart) > 0 and (apart >= 0.0).all() for apart in ahead),
+            structures=len(courses),
+        ),
+    }
+
+
+if __name__ == "__main__":
+    run(snakemake, compute, findings)
