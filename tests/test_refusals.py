@@ -17,7 +17,8 @@ from topheavy.bodies.free_rocking import quarter_period, restoring_moment
 from topheavy.bodies.kinematics import outlines
 from topheavy.bodies.response import MAX_SAMPLES
 from topheavy.bodies.structures import simplified
-from topheavy.forces import clamped_forces, forces_at
+from topheavy.forces.contacts import forces_at
+from topheavy.forces.members import clamped_forces
 from topheavy.ground.shapes import ELEMENTARY, PULSE_SHAPES
 
 # ---------------------------------------------------------------------------- every argument
@@ -264,7 +265,9 @@ BAD = {  # what the message begins with or has, and what is called
     "response begins at 0.5 s; expected t = 0": lambda: forces(
         th.simulate(**SHAKEN, samples=[0.5, 1.0]), SHAKING
     ),
-    "expected a RockingFrame": lambda: th.contact_forces(COLUMN, CAP, RESPONSE, SHAKING),
+    "expected a RockingFrame": lambda: th.impact_impulses(COLUMN, CAP, 0.1),
+    "expected a RockingFrame, a Column": lambda: th.contact_forces(BLOCK, None, RESPONSE, SHAKING),
+    "since Column has no loose cap": lambda: th.contact_forces(COLUMN, CAP, RESPONSE, SHAKING),
     "the excitation goes on forever": lambda: clamped_forces(FRAME, CAP, FOREVER),
     # risk
     "structures is empty; expected one, a list, or": lambda: fragile(structures={}),

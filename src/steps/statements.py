@@ -19,7 +19,7 @@ from topheavy import (
 from topheavy.bodies.free_rocking import quarter_period
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.bodies.structures import simplified
-from topheavy.forces import forces_at
+from topheavy.forces.contacts import forces_at
 from topheavy.kernel.step import TOLERANCE
 
 AGREE = 1e-6  # of α, of √r and of the weight: what two integrations may differ by

@@ -16,7 +16,7 @@ from steps.shared import plain
 from steps.shared.cases import cap_of, pulse_on
 from steps.shared.histories import history
 from topheavy import Cap, Column, Pulse, RockingFrame, simulate
-from topheavy.forces import base_shear_slope, clamped_forces, largest_forces
+from topheavy.forces.members import base_shear_slope, clamped_forces, largest_forces
 
 FORCES = ("base_shear", "overturning_moment", "bending_moment")
 SEED = 2014  # of the histories that the plain solver computes again

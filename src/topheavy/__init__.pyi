@@ -10,7 +10,7 @@ from .bodies.structures import (
     Structure,
     Structures,
 )
-from .forces import Cap, ContactForces, contact_forces, impact_impulses
+from .forces.contacts import Cap, ContactForces, contact_forces, impact_impulses
 from .ground.pulses import Pulse
 from .ground.reading import read_record
 from .ground.records import Record

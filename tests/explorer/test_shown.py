@@ -9,7 +9,7 @@ import pytest
 from documents.explorer import blocks, motion
 from topheavy import Cap, Column, RockingFrame, simulate
 from topheavy.bodies.kinematics import cap_displacement
-from topheavy.forces import forces_at
+from topheavy.forces.contacts import forces_at
 
 WEAK = {"width": 1.0, "height": 6.0, "g": 1.0, "shape": "one-cosine", "a": 0.195, "T": 1.5}
 """All three structures rock, and survive."""

@@ -17,7 +17,7 @@ from steps.shared.histories import history
 from steps.shared.spectrum import FRAME, KEYS, line, solve
 from tests.cases import COLUMN, CONFIG, ROOT, SIZES, as_written, broken
 from tests.cases import FRAME as BENT
-from topheavy.forces import base_shear_slope
+from topheavy.forces.members import base_shear_slope
 
 PULSE = th.Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
 TIGHT = 3e-12

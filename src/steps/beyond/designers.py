@@ -9,7 +9,7 @@ import math
 from replication.step import run, truth
 from topheavy import Cap, Column, RockingFrame
 from topheavy.bodies.kinematics import cap_displacement
-from topheavy.forces import base_shear_slope, centre_height
+from topheavy.forces.members import base_shear_slope, centre_height
 
 
 def compute(

@@ -10,7 +10,7 @@ from steps.shared.cases import pulse_on
 from steps.shared.histories import history
 from steps.shared.three_bodies import simulate_three_bodies
 from topheavy import Cap, Column, RockingFrame, impact_impulses, simulate
-from topheavy.forces import forces_at
+from topheavy.forces.contacts import forces_at
 
 AGREE = 1e-3  # of tan α: required friction by the closed form and by Newton's and Euler's equations
 

@@ -1,4 +1,4 @@
-"""Forces of a rocking frame: at its contacts, in its columns, and clamped against uplift.
+"""Forces at the contacts of a rocking frame, a column and a fixed mass.
 
 The paper assumes that nothing slides and that the cap beam stays on both columns (p. 3). This
 module computes the forces that the assumption requires. There are nine unknowns: θ̈ and four forces
@@ -12,17 +12,9 @@ leaves one unknown. The moment balance of the cap beam, which the paper omits, d
   centre of gravity meets the level of the contacts at e, to the right of the middle between them.
   A contact opens if that line leaves the span.
 
-The impulses at an impact obey the same equations. Rotations are in rad, signed; the ground
-acceleration is in g. Arrays broadcast.
-
-The loads of a column are the forces at its two contacts, half its width beside its axis, and its
-own weight and inertia. With the transverse and axial force t and n of the ground on the column, and
-the position c = b sgn θ of the contact, the bending moment at the height z along the axis is
-
-    M(z) = c n + t z − ∫₀ᶻ q(y) (z − y) dy + (m_c/2h) (b²/3) θ̈ z,   q = (m_c/2h) a_t,
-
-where a_t is the transverse acceleration on the axis, gravity included, and the last term is the
-rotary inertia. Base shear and moments are positive for a frame at rest under ü_g > 0.
+The impulses at an impact obey the same equations. A column, and columns and cap in one piece
+(`fixed_mass`), have one contact, at the pivot; its force is that on the whole body. Rotations are
+in rad, signed; the ground acceleration is in g. Arrays broadcast.
 """
 
 from __future__ import annotations
@@ -35,6 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
+from topheavy.bodies.fixed_mass import RigidBody
 from topheavy.bodies.response import Response
 from topheavy.bodies.structures import (
     STANDARD_GRAVITY,
@@ -47,7 +40,6 @@ from topheavy.checks import short_repr
 from topheavy.ground.excitation import checked_excitation
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
-from topheavy.ground.shapes import SHAPES, WAVES
 from topheavy.outcomes.simulate import simulate
 
 if TYPE_CHECKING:
@@ -56,6 +48,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Force = tuple[Array, Array]
 """Horizontal and vertical."""
+
+Bearing = RockingFrame | Column | RigidBody
+"""A structure whose contact forces are known."""
 
 
 @dataclass(frozen=True)
@@ -94,14 +89,23 @@ class Cap:
 CONTACTS = ("base_left", "base_right", "top_left", "top_right")
 """Of the ground on both columns, and of their tops on the cap beam."""
 
-SECTIONS = (0.0, 0.25, 0.5, 0.75, 1.0)
-"""Heights, normalised by 2h, at which the bending moments are computed."""
+BASE = ("base",)
+"""Of the ground on a column, or on columns and cap in one piece: at the pivot."""
 
 BESIDE_IMPACT = 1e-8
 """Time before and after an impact at which the forces are computed, times 1/p̂."""
 
 SAME_MOTION = 1e-6
 """Largest difference of θ, normalised by α, between a response and its repetition."""
+
+STEPS = 64, 20
+"""In a period of a pulse, and in 1/p̂: steps between the times of the forces, at least."""
+
+CLOSER, PASSES = 8, 2
+"""Parts of a step beside an extreme, and how often it is divided: extremes are known to 1e-4."""
+
+NEAR = 0.01
+"""Share of an extreme within which others are refined, too."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -110,10 +114,11 @@ class ContactForces:
 
     Attributes
     ----------
-    horizontal : ndarray, shape (4, ...)
+    horizontal : ndarray, shape (4, ...) or (1, ...)
         To the right, of the ground on the left and the right column, and of the top of the left and
-        the right column on the cap beam; each of the shape of the motion.
-    vertical : ndarray, shape (4, ...)
+        the right column on the cap beam; each of the shape of the motion. Of a column or a fixed
+        mass: of the ground.
+    vertical : ndarray, shape (4, ...) or (1, ...)
         Upward. If it is negative, the contact would have to pull; it opens instead.
 
     Examples
@@ -142,49 +147,62 @@ class ContactForces:
 
 
 def forces_at(
-    frame: RockingFrame,
-    cap: Cap,
+    structure: Bearing,
+    cap: Cap | None,
     rotation: ArrayLike,
     velocity: ArrayLike,
     ground_acceleration: ArrayLike,
 ) -> ContactForces:
-    """Return the forces on a frame in states of its motion, normalised by (2 m_c + m_b) g.
+    """Return the contact forces in states of a motion, normalised by the weight of the structure.
 
     The motion is that of Eq. (23). The forces are not limited where a contact cannot provide them:
     a tension or a very large required friction shows that the assumed motion is impossible.
 
     Parameters
     ----------
-    frame, cap
-        γ may be 0 (no force under the cap beam) or infinite (columns without weight).
+    structure : RockingFrame, Column, FixedMassColumn or MonolithicPortal
+        γ of a frame may be 0 (no force under the cap beam) or infinite (columns without weight).
+    cap : Cap, optional
+        Of a frame, whose weight is (2 m_c + m_b) g; None of the others.
     rotation, velocity, ground_acceleration : array_like
         θ (rad, |θ| < π/2), θ̇ (rad/s) and ü_g (g).
 
     Returns
     -------
     ContactForces
-        At θ = 0 the frame turns to the side of its velocity. Without one, it turns to the side
+        At θ = 0 the structure turns to the side of its velocity. Without one, it turns to the side
         that ü_g uplifts it to, for |ü_g| ≥ tan α. Below, at rest, the forces are NaN: base and
         top faces are in full contact, and nine equations do not determine the twelve resultants.
 
     Raises
     ------
     ValueError
-        For a rotation of π/2 or more, a span that is not more than the columns' width 2b, and a
-        frame of more than two columns.
+        For a rotation of π/2 or more, a frame without a cap, another structure with one, a span
+        that is not more than the columns' width 2b, and a frame of more than two columns.
     """
-    _check_contacts(frame, cap)
-    motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
-    return _forces_in(frame, cap, motion)
+    check_contacts(structure, cap)
+    motion = motion_state(structure, rotation, velocity, ground_acceleration)
+    return forces_in(structure, cap, motion)
 
 
-def _forces_in(frame: RockingFrame, cap: Cap, motion: _State) -> ContactForces:
+def forces_in(structure: Bearing, cap: Cap | None, motion: State) -> ContactForces:
     """Return the forces of `forces_at` in states of the motion."""
-    size, p_hat = frame.column.size, frame.frequency_parameter
-    column_weight, beam_weight = weights(frame.mass_ratio)
-    column = _inertia_force(motion, size, p_hat, column_weight)  # Eqs. (10), (11)
-    beam = _inertia_force(motion, 2.0 * size, p_hat, beam_weight)  # Eqs. (12), (13)
-    return _distributed(frame, cap, motion.side, motion.lean, column, beam)
+    frequency = structure.frequency_parameter
+    if not isinstance(structure, RockingFrame) or cap is None:
+        base = _inertia_force(motion, _distance(structure), frequency, 1.0)
+        return ContactForces(*(np.asarray(component)[None] for component in base))
+    size = structure.column.size
+    column_weight, beam_weight = weights(structure.mass_ratio)
+    column = _inertia_force(motion, size, frequency, column_weight)  # Eqs. (10), (11)
+    beam = _inertia_force(motion, 2.0 * size, frequency, beam_weight)  # Eqs. (12), (13)
+    return _distributed(structure, cap, motion.side, motion.lean, column, beam)
+
+
+def _distance(structure: Bearing) -> float:
+    """Return the distance of the centre of gravity from the pivot, m."""
+    if isinstance(structure, RigidBody):
+        return math.hypot(structure.half_base, structure.centre_height)
+    return structure.column.size if isinstance(structure, RockingFrame) else structure.size
 
 
 def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> ContactForces:
@@ -213,7 +231,7 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     >>> impulses.friction_demand.round(3).tolist()  # of both bases and both tops
     [0.159, 0.161, 0.159, 0.162]
     """
-    _check_contacts(frame, cap)
+    checked_frame(frame, cap)
     column_weight, beam_weight = weights(frame.mass_ratio)
     size = frame.column.size
     column = _impulse(frame, size, velocity, column_weight)
@@ -223,7 +241,7 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     return _distributed(frame, cap, side, lean, column, beam)
 
 
-def _check_contacts(frame: object, cap: object) -> None:
+def checked_frame(frame: object, cap: object) -> None:
     """Raise ValueError unless the contacts of a frame and a cap beam are known."""
     if not isinstance(frame, RockingFrame):
         raise ValueError(f"structure is {short_repr(frame)}; expected a RockingFrame")
@@ -236,37 +254,72 @@ def _check_contacts(frame: object, cap: object) -> None:
     checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
 
 
-def contact_forces(
-    structure: RockingFrame, cap: Cap, response: Response, motion: Pulse | Record | None = None
-) -> xarray.Dataset:
-    """Return the forces at the four contacts of a frame in a response, normalised by its weight.
+def check_contacts(structure: object, cap: object) -> None:
+    """Raise ValueError unless the contacts of a structure are known."""
+    if isinstance(structure, RockingFrame):
+        checked_frame(structure, cap)
+    elif not isinstance(structure, Column | RigidBody):
+        raise ValueError(
+            f"structure is {short_repr(structure)}; expected a RockingFrame, a Column, or columns "
+            "and cap in one piece (FixedMassColumn, MonolithicPortal)"
+        )
+    elif cap is not None:
+        raise ValueError(
+            f"cap is {short_repr(cap)}; expected None, since {type(structure).__name__} has no "
+            "loose cap beam"
+        )
 
-    The response is followed again, at its own times, at the samples of a record, and just before
-    and after each impact, where the forces jump. The impulses of the impacts themselves are those
-    of `impact_impulses`.
+
+def static_shares(structure: Bearing) -> Array:
+    """Return the vertical force of each contact at rest, over the weight of the structure."""
+    if not isinstance(structure, RockingFrame):
+        return np.ones(1)
+    beam = weights(structure.mass_ratio)[1]
+    return np.array([1.0, 1.0, beam, beam]) / 2.0
+
+
+def contact_forces(
+    structure: Bearing,
+    cap: Cap | None,
+    response: Response,
+    motion: Pulse | Record | None = None,
+    *,
+    until_alpha: bool = False,
+) -> xarray.Dataset:
+    """Return the forces at the contacts of a structure in a response, normalised by its weight.
+
+    The response is followed again, at its own times and at as many more as resolve its course, and
+    just before and after each impact, where the forces jump. The extremes of each contact are met
+    to 1e-4. The impulses of the impacts themselves are those of `impact_impulses`.
 
     Parameters
     ----------
-    structure : RockingFrame
-        Of two columns, without a √r of its own.
-    cap : Cap
+    structure : RockingFrame, Column, FixedMassColumn or MonolithicPortal
+        A frame of two columns; without a √r of its own.
+    cap : Cap, optional
+        Of a frame; None of the others.
     response : Response
         Of this structure to this motion, as `simulate` returns it, from t = 0.
     motion : Pulse or Record, optional
         None of free rocking.
+    until_alpha : bool
+        Whether the forces end where |θ| passes α for the last time: an overturned structure does
+        not come back from there.
 
     Returns
     -------
     xarray.Dataset
         Over (contact, time): horizontal (to the right) and vertical (upward), the force on the
-        body above the contact over (2 m_c + m_b) g; required_friction, their ratio, infinite where
+        body above the contact over the weight; required_friction, their ratio, infinite where
         the contact opens. NaN at rest, where whole faces are in contact, and after overturning.
+        Over contact: at_rest, the vertical force of the resting structure. The contacts are those
+        of `CONTACTS`, or base.
 
     Raises
     ------
     ValueError
-        For another structure, and for a response that is not the one of this structure to this
-        motion or does not begin at t = 0.
+        For another structure, a frame without a cap, and for a response that is not the one of
+        this structure to this motion or does not begin at t = 0.
 
     Examples
     --------
@@ -283,63 +336,111 @@ def contact_forces(
     """
     import xarray
 
-    _check_contacts(structure, cap)
+    check_contacts(structure, cap)
     if not isinstance(response, Response):
         raise ValueError(f"response is {short_repr(response)}; expected one that simulate returned")
     if motion is not None:
         checked_excitation(motion)
+    until_alpha = checks.truth("until_alpha", until_alpha)
     if response.time[0] != 0.0:
         raise ValueError(f"response begins at {response.time[0]:.6g} s; expected t = 0")
     time = _times_of_forces(structure, response, motion)
-    again = simulate(
-        structure,
-        motion,
-        rotation=response.rotation[0],
-        velocity=response.velocity[0],
-        duration=float(time[-1]) if motion is not None and math.isinf(motion.duration) else None,
-        samples=time,
+    for number in range(PASSES + 1):
+        again = simulate(
+            structure,
+            motion,
+            rotation=response.rotation[0],
+            velocity=response.velocity[0],
+            duration=float(time[-1]) if motion and math.isinf(motion.duration) else None,
+            samples=time,
+        )
+        if not number:
+            _check_same(response, again, structure.slenderness)
+        theta = again.rotation
+        ended = ~(np.abs(theta) < math.pi / 2)  # or NaN: it lies flat
+        if until_alpha:
+            (inside,) = np.nonzero(np.abs(theta) <= structure.slenderness)
+            ended[inside.max(initial=0) + 1 :] = True
+        ground = np.zeros(time.size) if motion is None else motion.accelerations(time)
+        forces = forces_at(structure, cap, np.where(ended, 0.0, theta), again.velocity, ground)
+        components = forces.horizontal, forces.vertical, forces.friction_demand
+        across, upward, friction = (np.where(ended, np.nan, values) for values in components)
+        if number < PASSES:
+            time = _closer(
+                time, upward, friction, 3.0 * BESIDE_IMPACT / structure.frequency_parameter
+            )
+    names = {
+        "horizontal": "horizontal force over weight",
+        "vertical": "vertical force over weight",
+        "required_friction": "required coefficient of friction",
+    }
+    contacts = CONTACTS if isinstance(structure, RockingFrame) else BASE
+    variables = {
+        name: (("contact", "time"), values, {"units": "1", "long_name": long_name})
+        for (name, long_name), values in zip(names.items(), (across, upward, friction), strict=True)
+    }
+    shares = {"units": "1", "long_name": "vertical force at rest over weight"}
+    return xarray.Dataset(
+        variables | {"at_rest": ("contact", static_shares(structure), shares)},
+        {"contact": [*contacts], "time": ("time", time, {"units": "s"})},
+        {"over": f"weight {'(2 m_c + m_b)' if contacts is CONTACTS else 'm'} g"},
     )
-    repeated = again.rotation[np.searchsorted(time, response.time)]
-    apart = np.abs(repeated - response.rotation) / structure.slenderness
-    if not (np.isnan(repeated) == np.isnan(response.rotation)).all() or (apart > SAME_MOTION).any():
+
+
+def _check_same(response: Response, again: Response, slenderness: float) -> None:
+    """Raise ValueError unless a response is met again, at its times among those of another one.
+
+    A structure that has overturned lies flat: at its last sample, or NaN behind it.
+    """
+    repeated = again.rotation[np.searchsorted(again.time, response.time)]
+    known = response.rotation[~np.isnan(response.rotation)]
+    flat = math.copysign(math.pi / 2, known[-1])
+    both = (np.where(np.isnan(theta), flat, theta) for theta in (repeated, response.rotation))
+    apart = np.abs(np.subtract(*both)).max() / slenderness
+    if apart > SAME_MOTION:
         raise ValueError(
-            f"response differs by up to {np.nanmax(apart):.3g} α from that of this structure to "
+            f"response differs by up to {apart:.3g} α from that of this structure to "
             "this motion; expected the structure and the motion that it was simulated with, "
             "without a vertical component"
         )
-    ground = np.zeros(time.size) if motion is None else motion.accelerations(time)
-    ended = ~(np.abs(again.rotation) < math.pi / 2)  # or NaN: it lies flat
-    forces = forces_at(structure, cap, np.where(ended, 0.0, again.rotation), again.velocity, ground)
-    columns = {
-        "horizontal": (forces.horizontal, "horizontal force over weight"),
-        "vertical": (forces.vertical, "vertical force over weight"),
-        "required_friction": (forces.friction_demand, "required coefficient of friction"),
-    }
-    at = ("contact", "time")
-    return xarray.Dataset(
-        {
-            name: (at, np.where(ended, np.nan, values), {"units": "1", "long_name": long_name})
-            for name, (values, long_name) in columns.items()
-        },
-        {"contact": [*CONTACTS], "time": ("time", time, {"units": "s"})},
-        {"over": "weight (2 m_c + m_b) g"},
-    )
 
 
 def _times_of_forces(
-    structure: RockingFrame, response: Response, motion: Pulse | Record | None
+    structure: Bearing, response: Response, motion: Pulse | Record | None
 ) -> Array:
-    """Return the times of a response, of a record's samples, and beside the impacts, s."""
-    beside = BESIDE_IMPACT / structure.frequency_parameter
+    """Return the times of a response, of a record's samples, beside the impacts, and between, s."""
+    frequency, end = structure.frequency_parameter, response.time[-1]
+    beside, step = BESIDE_IMPACT / frequency, 1.0 / (STEPS[1] * frequency)
     times = [response.time, response.impact_times - beside, response.impact_times + beside]
     if isinstance(motion, Record):
         times.append(motion.time)
-    together = np.unique(np.concatenate(times))
-    inside: Array = together[(together >= 0.0) & (together <= response.time[-1])]
+    elif motion is not None:
+        step = min(step, 2.0 * math.pi / (STEPS[0] * motion.angular_frequency))
+    together = np.unique(np.concatenate([*times, step * np.arange(math.ceil(end / step))]))
+    inside: Array = together[(together >= 0.0) & (together <= end)]
     return inside
 
 
-class _State(NamedTuple):
+def _closer(time: Array, vertical: Array, friction: Array, gap: float) -> Array:
+    """Return times with more of them beside the extremes, and where the forces end.
+
+    Steps no longer than the gap (s), between the sides of an impact, are not divided.
+    """
+    places = set(np.flatnonzero(np.diff(np.isnan(vertical[0]))))
+    for values in (vertical, np.where(np.isfinite(friction), -friction, np.inf)):
+        values = np.pad(np.where(np.isnan(values), np.inf, values), ((0, 0), (1, 1)), mode="edge")
+        lowest = values.min(axis=1, keepdims=True)
+        near = np.isfinite(values) & (values <= lowest + NEAR * np.abs(lowest))
+        turns = (values[:, 1:-1] <= values[:, :-2]) & (values[:, 1:-1] <= values[:, 2:])
+        places |= set(np.flatnonzero((turns & near[:, 1:-1]).any(axis=0)))
+    at = np.array(sorted(places), dtype=int)
+    sides = {*(at[at > 0] - 1), *at[at < time.size - 1]}
+    steps = np.array([place for place in sides if time[place + 1] - time[place] > gap], dtype=int)
+    inner = np.linspace(time[steps], time[steps + 1], CLOSER + 1)
+    return np.unique(np.append(time, inner))
+
+
+class State(NamedTuple):
     """θ, θ̇, ü_g (g), the side s (NaN at rest), the lean α − |θ|, its sine and cosine."""
 
     rotation: Array
@@ -352,8 +453,8 @@ class _State(NamedTuple):
 
 
 def motion_state(
-    column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
-) -> _State:
+    structure: Bearing, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
+) -> State:
     """Return a motion as arrays of one shape, or raise ValueError for θ of π/2 or more."""
     theta, rate, ground = np.broadcast_arrays(
         checks.numbers("rotation", rotation),
@@ -366,14 +467,14 @@ def motion_state(
             f"rotation is up to {largest:.6g} rad; expected less than π/2, where the column lies "
             "flat"
         )
-    uplifted = np.where(np.abs(ground) >= column.uplift_acceleration, -np.sign(ground), np.nan)
+    uplifted = np.where(np.abs(ground) >= structure.uplift_acceleration, -np.sign(ground), np.nan)
     moving = np.where(rate != 0.0, np.sign(rate), uplifted)
     side = np.where(theta != 0.0, np.sign(theta), moving)
-    lean = column.slenderness - np.abs(theta)
-    return _State(theta, rate, ground, side, lean, np.sin(lean), np.cos(lean))
+    lean = structure.slenderness - np.abs(theta)
+    return State(theta, rate, ground, side, lean, np.sin(lean), np.cos(lean))
 
 
-def _inertia_force(motion: _State, distance: float, frequency: float, weight: float) -> Force:
+def _inertia_force(motion: State, distance: float, frequency: float, weight: float) -> Force:
     """Return the force on a body, for its share of the weight.
 
     Its centre is this distance (m) from the pivot: the column's at R, the cap beam's at 2R. It
@@ -426,117 +527,3 @@ def _distributed(
         tops = [of_beam / 2.0 + end * moved for end in (-1.0, 1.0)]
         components.append(np.array([*(top + of_column for top in tops), *tops]))
     return ContactForces(*components)
-
-
-class FrameForces(NamedTuple):
-    """Forces of a rocking frame normalised by its weight (moments in m), over its motion.
-
-    The base shear is that of the ground on both columns; the overturning moment is about the point
-    midway between the resting columns; the bending moment, of shape (2, ..., sections), is in the
-    left and the right column at the heights SECTIONS.
-    """
-
-    base_shear: Array
-    overturning_moment: Array
-    bending_moment: Array
-
-
-def frame_forces(
-    frame: RockingFrame,
-    cap: Cap,
-    rotation: ArrayLike,
-    velocity: ArrayLike,
-    ground_acceleration: ArrayLike,
-) -> FrameForces:
-    """Return the forces of a frame whose motion is that of Eq. (23).
-
-    The parameters are those of `forces_at`. At rest, base shear and overturning moment follow
-    from the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
-    """
-    _check_contacts(frame, cap)
-    motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
-    contacts = _forces_in(frame, cap, motion)
-    rests, half_height = np.isnan(motion.side), frame.column.half_height
-    corner = motion.side * frame.column.half_width
-    horizontal, vertical = contacts.horizontal[:2], contacts.vertical[:2]
-    shear = np.where(rests, motion.ground, horizontal.sum(axis=0))
-    left, right = (corner + end * cap.span for end in (-0.5, 0.5))
-    moment = -(left * vertical[0] + right * vertical[1])
-    moment = np.where(rests, motion.ground * centre_height(frame, cap), moment)
-
-    sin, cos = np.sin(motion.rotation), np.cos(motion.rotation)
-    push = motion.side * motion.sine + motion.ground * motion.cosine
-    turn = -(frame.frequency_parameter**2) * push / STANDARD_GRAVITY  # Eq. (23)
-    load = weights(frame.mass_ratio)[0] / (2.0 * half_height)
-    steady = motion.ground * cos - sin + corner * motion.velocity**2 / STANDARD_GRAVITY
-    y = 2.0 * half_height * np.array(SECTIONS)
-    rotary = turn * frame.column.half_width**2 / 3.0
-    span_loads = y * (rotary[..., None] - y * (steady[..., None] / 2.0 + y * turn[..., None] / 6.0))
-    base = corner * (horizontal * sin + vertical * cos)
-    slope = horizontal * cos - vertical * sin
-    bending = base[..., None] + slope[..., None] * y + load * span_loads
-    return FrameForces(shear, moment, bending)
-
-
-def largest_forces(
-    frame: RockingFrame, cap: Cap, rotation: Array, velocity: Array, ground_acceleration: Array
-) -> NDArray[np.float64]:
-    """Return the largest absolute forces of `frame_forces` over all arcs of motion.
-
-    The motion has the shape (arcs, samples). Arcs at rest are left out, since the forces of a
-    resting frame are largest at uplift, where the next arc begins; if no arc moves, all count.
-
-    Returns
-    -------
-    ndarray, shape (2, 3)
-        Of all samples, and of every other one: base shear, overturning moment, bending moment.
-    """
-    moves = rotation.any(axis=1)
-    moves = moves if moves.any() else ~moves
-    arcs = (x[moves] for x in (rotation, velocity, ground_acceleration))
-    forces = frame_forces(frame, cap, *arcs)
-    bending = np.abs(forces.bending_moment).max(axis=(0, -1))
-    sizes = np.stack([np.abs(forces.base_shear), np.abs(forces.overturning_moment), bending])
-    sizes = np.nan_to_num(sizes)
-    return np.stack([sizes.max(axis=(1, 2)), sizes[:, :, ::2].max(axis=(1, 2))])
-
-
-def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Pulse | Record) -> Array:
-    """Return the largest forces of the same rigid frame if it is clamped against uplift.
-
-    Its columns are fixed to the ground and pinned to the cap beam: each is a cantilever under its
-    own inertia and half that of the cap beam at its top. Everything moves with the ground.
-
-    Returns
-    -------
-    ndarray, shape (3,)
-        Base shear, overturning moment and bending moment, normalised as in `FrameForces`.
-    """
-    checked_excitation(excitation, ends=True)
-    peak = excitation.peak_acceleration
-    if isinstance(excitation, Pulse):  # where its wave turns or begins
-        phases = np.array([0.0, *WAVES[SHAPES[excitation.shape].wave].turns])
-        waves = excitation.accelerations(phases / excitation.angular_frequency)
-        peak = float(np.abs(waves).max())
-    column, beam = weights(frame.mass_ratio)
-    bending = (beam + column) * frame.column.half_height
-    return np.array([1.0, centre_height(frame, cap), bending]) * peak
-
-
-def base_shear_slope(frame: RockingFrame) -> float:
-    """Return d(V/W)/d(ü_g/g), the growth of the base shear over the weight just after uplift.
-
-    1 − (3/4) cos²α (1 + 2γ)²/((1 + γ)(1 + 3γ)); sin²α for γ → ∞. It is 1 before uplift.
-    """
-    gamma = frame.mass_ratio
-    ratio = 4.0 / 3.0
-    if gamma != math.inf:
-        ratio = (1.0 + 2.0 * gamma) ** 2 / ((1.0 + gamma) * (1.0 + 3.0 * gamma))
-    return 1.0 - 0.75 * math.cos(frame.slenderness) ** 2 * ratio
-
-
-def centre_height(frame: RockingFrame, cap: Cap) -> float:
-    """Return the height of the centre of gravity of the resting frame, m."""
-    column, beam = weights(frame.mass_ratio)
-    h = frame.column.half_height
-    return 2.0 * column * h + beam * (2.0 * h + cap.half_depth)

@@ -1,0 +1,1 @@
+"""Forces of structures that rock: at their contacts (`contacts`), and in frames (`members`)."""
