@@ -29,7 +29,7 @@ reproduce: | $(UV) ## compute every result, check every claim, compile article a
 unlock: | $(UV) ## after a killed run: let the next run begin
 	@$(RUN) python -m snakemake --unlock
 
-check: | $(UV) ## without a run: checksums, parameters, verdicts, pages and certificates of what is published
+check: | $(UV) ## without a run: checksums, parameters, verdicts and pages of what is published
 	@$(RUN) python -m documents.check
 
 audit: | $(UV) ## without a run: recompute what README says by one file, from the equations

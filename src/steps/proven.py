@@ -5,30 +5,33 @@ from typing import Any
 
 import pandas as pd
 
-from replication.step import run, truth
+from replication.step import run, stop, truth
 from steps.shared.balls import NotProvenError, block_of, outcome
 from steps.shared.cases import column_of
 from topheavy import Column
 
 SHAPE = "one-cosine"
 QUOTED = [("column", 0.0), ("frame", 1.0), ("frame", math.inf)]
-WIDTHS = (1e-8, 1e-7, 1e-6)  # relative distances from a minimum to try: tables have nine digits
+WIDTHS = (1e-8, 1e-7, 1e-6)  # relative distances from a minimum, which has nine digits in its table
 
 
 def proven(column: dict, gamma: float, amplitude: float, period: float) -> str:
-    """Return the outcome that is proven, or "undecided"."""
+    """Return the outcome that is proven, "survives" or "overturns"."""
     try:
         return outcome(block_of(column, gamma, amplitude, period))
     except NotProvenError as reason:
-        print(f"γ = {gamma:g} under {amplitude:.15g} g: {reason}")
-        return "undecided"
+        stop(
+            f"γ = {gamma:g} under {amplitude:.15g} g: no outcome is proven, as {reason}; expected "
+            '"survives" or "overturns". Take another period or slenderness, or more BITS and STEPS '
+            "in src/steps/shared/balls.py"
+        )
 
 
 def sides(column: dict, gamma: float, minimum: float, period: float) -> list[tuple[float, str]]:
     """Return the closest amplitudes below and above a minimum that differ, with their outcomes."""
     for width in WIDTHS:
         amplitudes = [float(f"{minimum * (1.0 + side * width):.15g}") for side in (-1.0, 1.0)]
-        pairs = [(one, proven(column, gamma, one, period)) for one in amplitudes]
+        pairs = [(amplitude, proven(column, gamma, amplitude, period)) for amplitude in amplitudes]
         if [end for _, end in pairs] == ["survives", "overturns"]:
             break
     return pairs
@@ -47,14 +50,14 @@ def compute(
             column, gamma, float(quoted.minimum_overturning[name, gamma]), period
         )
     ]
-    for at in spectra_histories.drop_duplicates("mass_ratio").to_dict("records"):
-        own: Column = column_of(at["slenderness_deg"])
-        amplitude = float(f"{at['amplitude_over_uplift'] * own.uplift_acceleration:.15g}")
-        length = 2.0 * math.pi / (at["frequency_ratio"] * own.frequency_parameter)
-        both = {"half_width": own.half_width, "half_height": own.half_height}
-        end = proven(both, at["mass_ratio"], amplitude, length)
+    for case in spectra_histories.drop_duplicates("mass_ratio").to_dict("records"):
+        thin: Column = column_of(case["slenderness_deg"])
+        amplitude = float(f"{case['amplitude_over_uplift'] * thin.uplift_acceleration:.15g}")
+        length = 2.0 * math.pi / (case["frequency_ratio"] * thin.frequency_parameter)
+        sizes = {"half_width": thin.half_width, "half_height": thin.half_height}
+        end = proven(sizes, case["mass_ratio"], amplitude, length)
         rows.append(
-            {"part": "exception", "structure": "frame", "mass_ratio": at["mass_ratio"]}
+            {"part": "exception", "structure": "frame", "mass_ratio": case["mass_ratio"]}
             | {"amplitude": f"{amplitude:.15g}", "outcome": end}
         )
     return rows
@@ -62,23 +65,18 @@ def compute(
 
 def findings(proven: pd.DataFrame, vase: pd.DataFrame) -> dict[str, Any]:
     """Return whether the outcomes enclose the quoted minima, and what the exception is."""
-    minimum = proven[proven.part == "minimum"]
+    minima = proven[proven.part == "minimum"].sort_values("amplitude")
+    structures = minima.groupby(["structure", "mass_ratio"])
+    below, above = structures.amplitude.min(), structures.amplitude.max()
     quoted = vase[vase["shape"] == SHAPE].set_index(["structure", "mass_ratio"])
-    first, last, tables = [], [], []
-    for one, rows in minimum.groupby(["structure", "mass_ratio"]):
-        first.append(rows.amplitude.min())
-        last.append(rows.amplitude.max())
-        tables.append(quoted.minimum_overturning[one])
-    outcomes = minimum.sort_values("amplitude").groupby(["structure", "mass_ratio"]).outcome
+    minimum = quoted.minimum_overturning[below.index]
     exception = proven[proven.part == "exception"].sort_values("mass_ratio").outcome.tolist()
     return {
         "boundaries": truth(
-            all(each == ["survives", "overturns"] for each in outcomes.agg(list))
-            and all(a < b < c for a, b, c in zip(first, tables, last, strict=True)),
-            minima=len(first),
-            largest_relative_distance=max(
-                0.5 * (c / a - 1.0) for a, c in zip(first, last, strict=True)
-            ),
+            all(ends == ["survives", "overturns"] for ends in structures.outcome.agg(list))
+            and ((below < minimum) & (minimum < above)).all(),
+            minima=len(minimum),
+            largest_relative_distance=0.5 * (above / below - 1.0).max(),
         ),
         "exception": truth(exception == ["survives", "overturns"]),
     }

@@ -10,6 +10,7 @@ from PIL import Image
 
 import topheavy as th
 from documents import animation
+from documents.check import REFERENCE
 from replication.step import findings_text
 from steps import proven, spectra, uplift, vase
 from steps.shared import balls, cycles, spectrum
@@ -311,7 +312,7 @@ QUOTED = pd.DataFrame(
 @pytest.mark.parametrize(
     ("row", "column", "number", "breaks"),
     [
-        (0, "outcome", "undecided", "boundaries"),
+        (0, "outcome", "overturns", "boundaries"),
         (0, "amplitude", 0.21, "boundaries"),
         (3, "outcome", "survives", "exception"),
     ],
@@ -326,44 +327,56 @@ def test_each_outcome_counts(row, column, number, breaks):
     }
 
 
-def test_both_sides_of_a_minimum_are_verified():
-    low = float(f"{minimum(COLUMN).factor:.9g}")
-    pairs = proven.sides(SIZES, 0.0, low, 1.5)
-    assert [amplitude for amplitude, _ in pairs] == pytest.approx(
-        [low * (1 - 1e-8), low * (1 + 1e-8)], rel=1e-14
-    )
-    assert [end for _, end in pairs] == ["survives", "overturns"]
-    others = proven.sides(SIZES, 0.0, 1.01 * low, 1.5)
-    assert [end for _, end in others] == ["overturns", "overturns"]
-    assert proven.proven(SIZES, 0.0, 0.1, 1.5) == "undecided"  # below uplift
+GAMMAS = pytest.mark.parametrize("gamma", [0.0, 1.0, math.inf])
 
 
-@pytest.mark.parametrize("gamma", [0.0, 1.0, math.inf])
-def test_no_proof_contradicts_the_solver(gamma):
-    frame = th.RockingFrame(COLUMN, gamma)
-    for amplitude in np.linspace(0.18, 1.5, 12):
+@GAMMAS
+def test_quoted_minimum_is_between_proven_outcomes(gamma):
+    table = pd.read_csv(REFERENCE / "vase.csv").query("shape == 'one-cosine'")
+    quoted = table[(table.mass_ratio == gamma) & table.structure.isin(["column", "frame"])]
+    low, period = quoted.minimum_overturning.item(), CONFIG["vase"]["period"]
+    pairs = proven.sides(SIZES, gamma, low, period)
+    assert pairs == [
+        (pytest.approx(low * (1 - 1e-8), rel=1e-14), "survives"),
+        (pytest.approx(low * (1 + 1e-8), rel=1e-14), "overturns"),
+    ]
+
+
+@GAMMAS
+def test_proofs_have_the_outcomes_of_the_solver(gamma):
+    for amplitude in (0.1, 0.25, 0.5, 1.0):  # from below uplift, at 1/6 g
         for period in (0.5, 1.5, 3.0):
             pulse = th.Pulse("one-cosine", amplitude, period=period)
+            fell = th.judge(th.RockingFrame(COLUMN, gamma), pulse).overturned
             end = proven.proven(SIZES, gamma, amplitude, period)
-            expected = "overturns" if th.judge(frame, pulse).overturned else "survives"
-            assert end in (expected, "undecided")
+            assert end == ("overturns" if fell else "survives")
+
+
+def test_amplitudes_about_no_minimum_do_not_differ():
+    pairs = proven.sides(SIZES, 0.0, 0.3, 1.5)
+    assert [end for _, end in pairs] == ["overturns", "overturns"]
+
+
+def test_balls_that_do_not_decide_stop_the_step():
+    with pytest.raises(SystemExit, match="no outcome is proven, as the pulse may not lift"):
+        proven.proven({"half_width": 0.5, "half_height": 2.5}, 0.0, 0.2, 1.5)  # tan α = 0.2
 
 
 def test_terms_and_remainder_contain_the_motion():
     block = balls.block_of(SIZES, 1.0, 0.4, 1.5)
     state = balls.State(balls.arb(0), -1, balls.arb(0), balls.arb(0), 2)
     step = balls.exact(0.25)
-    found = balls.value(balls.terms(block, state, step), step)
-    p = th.RockingFrame(COLUMN, 1.0).frequency_parameter
-    pulse = th.Pulse("one-cosine", 0.4, period=1.5)
-    there = th.simulate(th.RockingFrame(COLUMN, 1.0), pulse, samples=[0.0, 0.25 / p])
-    assert abs(there.rotation[1]) == pytest.approx(float(found.mid()), rel=1e-9)
-    halves = balls.value(balls.terms(block, state, step / 2), step / 2)
-    rate = balls.velocity_at(block, state, step / 2)
-    second = balls.State(step / 2, -1, halves, rate, 0)
-    twice = balls.value(balls.terms(block, second, step / 2), step / 2)
-    assert twice.overlaps(found)
-    assert float(found.rad()) < 1e-20
+    whole = balls.value(balls.terms(block, state, step), step)
+    frame, pulse = th.RockingFrame(COLUMN, 1.0), th.Pulse("one-cosine", 0.4, period=1.5)
+    times = [0.0, 0.25 / frame.frequency_parameter]
+    motion = th.simulate(frame, pulse, samples=times)
+    assert abs(motion.rotation[1]) == pytest.approx(float(whole.mid()), rel=1e-9)
+    polynomial = balls.terms(block, state, step / 2)
+    half = [balls.value(terms, step / 2) for terms in (polynomial, balls.slope(polynomial))]
+    second = balls.State(step / 2, -1, *half, 0)
+    halves = balls.value(balls.terms(block, second, step / 2), step / 2)
+    assert halves.overlaps(whole)
+    assert float(whole.rad()) < 1e-20
 
 
 # Forces after uplift -----------------------------------------------------------------------------

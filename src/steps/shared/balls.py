@@ -17,14 +17,14 @@ from flint import arb, arb_series, ctx, fmpq
 
 from topheavy import STANDARD_GRAVITY
 
-BITS, TERMS, STEPS = 160, 32, 40  # of a number, of a step, of a pulse
-ITERATIONS, HALVINGS = 60, 40
-INFLATION = 0.1  # of a range that does not contain the motion yet
-ctx.prec, ctx.cap = BITS, TERMS + 2
+BITS, TERMS, STEPS = 160, 32, 40  # bits of a number, terms of a step, steps of a pulse
+ITERATIONS, HALVINGS = 60, 40  # limits of Picard's iteration, and of the search for a sign
+INFLATION = 0.1  # relative widening of a range that does not contain the motion yet
+ctx.prec = BITS
 
 
 class NotProvenError(ArithmeticError):
-    """Balls of this precision do not decide."""
+    """Balls of this precision do not decide; the message says why."""
 
 
 class Block(NamedTuple):
@@ -69,29 +69,36 @@ def block_of(column: dict, mass_ratio: float, amplitude: float, period: float) -
 
 def outcome(block: Block) -> str:
     """Return "survives" or "overturns", or raise NotProvenError."""
-    if not block.amplitude > block.slenderness.tan():
-        raise NotProvenError("the pulse does not lift the block at once")
+    if block.amplitude < block.slenderness.tan():
+        return "survives"  # at rest
+    if not (block.amplitude > block.slenderness.tan() and block.restitution > 0):
+        raise NotProvenError("the pulse may not lift the block, or its √r may not be positive")
     end = 2 * arb.pi() / block.frequency
     usual, state = (end / STEPS).mid(), State(arb(0), -1, arb(0), arb(0), 2)
     while not state.time.overlaps(end):
         is_last = not end - state.time > usual
         length = end - state.time if is_last else usual
-        shape = terms(block, state, length)[state.zeros :]
-        if is_positive(shape, arb(0), length.upper()):
-            rotation = value(terms(block, state, length), length)
-            velocity = velocity_at(block, state, length)
+        polynomial, longest = terms(block, state, length), length.upper()
+        shape, to_flat = polynomial[state.zeros :], [-term for term in polynomial]
+        to_flat[0] += arb.pi() / 2
+        stands = is_positive(to_flat, arb(0), longest)
+        if is_positive(shape, arb(0), longest):
+            rotation = value(polynomial, length)
             if rotation > arb.pi() / 2:
                 return "overturns"
+            velocity = value(slope(polynomial), length)
             time = end if is_last else state.time + length
             state = State(time, state.side, rotation, velocity, 0)
         else:
-            state = after_impact(block, state, shape, length.mid())
+            state = after_impact(block, state, polynomial, length.mid())
+        if not stands:
+            raise NotProvenError("the rotation comes close to π/2")
     return outcome_of_energy(block, state)
 
 
-def after_impact(block: Block, state: State, shape: list[arb], length: arb) -> State:
+def after_impact(block: Block, state: State, polynomial: list[arb], length: arb) -> State:
     """Return the state behind the first impact of a step: its bracket is one ball of times."""
-    low, high = arb(0), length
+    shape, rate, low, high = polynomial[state.zeros :], slope(polynomial), arb(0), length
     if not value(shape, high) < 0:
         raise NotProvenError("no impact and no flight")
     for _ in range(BITS):
@@ -104,14 +111,14 @@ def after_impact(block: Block, state: State, shape: list[arb], length: arb) -> S
         else:
             break
     first = low / 2  # up to here φ is positive, and from here on it falls
-    while not velocity_at(block, state, first.union(high)) < 0:
+    while not value(rate, first.union(high)) < 0:
         first = ((first + low) / 2).mid()
         if not low - first > length / 2**HALVINGS:
             raise NotProvenError("the motion grazes the upright")
     if not is_positive(shape, arb(0), first):
         raise NotProvenError("an impact may come earlier")
     step = low.union(high)
-    velocity = -block.restitution * velocity_at(block, state, step)
+    velocity = -block.restitution * value(rate, step)
     return State(state.time + step, -state.side, arb(0), velocity, 1)
 
 
@@ -119,14 +126,15 @@ def outcome_of_energy(block: Block, state: State) -> str:
     """Return the outcome when the ground has come to rest, as `topheavy.bodies.free_rocking`."""
     alpha, phi, rate = block.slenderness, state.rotation, state.velocity
     energy, barrier = rate**2 / 2 + (alpha - phi).cos() - alpha.cos(), 1 - alpha.cos()
-    behind = block.restitution**2 * energy  # an impact
     if (rate > 0 and energy > barrier) or (phi > alpha and energy < barrier):
         return "overturns"
-    if (phi < alpha and energy < barrier) or (rate < 0 and behind < barrier):
+    if phi < alpha and energy < barrier:
         return "survives"
-    if rate < 0 and behind > barrier:
-        return "overturns"
-    raise NotProvenError("the energy is that of the barrier")
+    if rate < 0 and energy > barrier:
+        behind = block.restitution**2 * energy  # the impact that follows
+        if behind > barrier or behind < barrier:
+            return "overturns" if behind > barrier else "survives"
+    raise NotProvenError("the energy comes close to that of the barrier")
 
 
 # One step -----------------------------------------------------------------------------------------
@@ -141,10 +149,9 @@ def terms(block: Block, state: State, length: arb) -> list[arb]:
     return [*series(block, state, TERMS), series(block, during, TERMS + 1)[TERMS]]
 
 
-def velocity_at(block: Block, state: State, step: arb) -> arb:
-    """Return φ' at a time of a step; its remainder is that of one order less."""
-    slope = [order * term for order, term in enumerate(terms(block, state, step.upper()))]
-    return value(slope[1:], step)
+def slope(polynomial: list[arb]) -> list[arb]:
+    """Return the terms of φ' over a step; the last one is its remainder, of one order less."""
+    return [order * term for order, term in enumerate(polynomial)][1:]
 
 
 def contained(block: Block, state: State, length: arb) -> tuple[arb, arb]:
@@ -166,7 +173,8 @@ def contained(block: Block, state: State, length: arb) -> tuple[arb, arb]:
 
 
 def series(block: Block, state: State, count: int) -> list[arb]:
-    """Return so many Taylor coefficients of φ. Each pass makes two more of them right."""
+    """Return `count` Taylor coefficients of φ. Each pass adds two."""
+    ctx.cap = count  # terms of a series: flint drops others without a word
     phase = arb_series([block.frequency * state.time, block.frequency], prec=count)
     push = state.side * block.amplitude * phase.cos()
     known = [state.rotation, state.velocity]
@@ -186,10 +194,10 @@ def value(coefficients: list[arb], x: arb) -> arb:
     return total
 
 
-def is_positive(coefficients: list[arb], low: arb, high: arb, depth: int = HALVINGS) -> bool:
+def is_positive(polynomial: list[arb], low: arb, high: arb, depth: int = HALVINGS) -> bool:
     """Return whether a polynomial is proven positive on [low, high], by halving it."""
-    if value(coefficients, low.union(high)) > 0:
+    if value(polynomial, low.union(high)) > 0:
         return True
     middle = ((low + high) / 2).mid()
     halves = (low, middle), (middle, high)
-    return depth > 0 and all(is_positive(coefficients, *ends, depth - 1) for ends in halves)
+    return depth > 0 and all(is_positive(polynomial, *ends, depth - 1) for ends in halves)
