@@ -11,6 +11,7 @@ from itertools import combinations, product
 import numpy as np
 
 from replication.step import check, geometric, run, truth
+from steps.shared.cases import column_of
 from steps.shared.plain import NUDGE, check_sample
 from topheavy import Column, RockingFrame, capacity, overturned_by, read_record
 
@@ -19,7 +20,7 @@ BESIDE = 3  # factors on either side of a change of the outcome
 
 def compute(settings, solver, structures, components):
     sizes, tightened = geometric(settings["sizes"]), solver["tightened"]
-    pool = [column_of(size, degrees) for degrees in settings["slendernesses"] for size in sizes]
+    pool = [column_of(degrees, size) for degrees in settings["slendernesses"] for size in sizes]
     finer = settings["factors"] | {"points": settings["by_structure"]["factors"]}
     by_structure = {name: Column(**structures[name]) for name in settings["by_structure"]["names"]}
     rows, edges, counts = [], [], []
@@ -40,11 +41,6 @@ def compute(settings, solver, structures, components):
     records = map(read_record, components)
     capacity_rows = [*capacities(spec, column, records, tightened)]
     return {"table": rows, "structures": counts, "capacity": capacity_rows}
-
-
-def column_of(size, degrees):
-    """Return the column of a size (m) and a slenderness (degrees)."""
-    return Column(size * math.sin(math.radians(degrees)), size * math.cos(math.radians(degrees)))
 
 
 def scaled(columns, settings, ratios, record, tightened):

@@ -10,10 +10,10 @@ HIGHEST, FLOOR = 40.0, 1e-3
 """Of a search, over the uplift acceleration: its end, and the interval that it cannot miss."""
 
 
-def column_of(degrees: float) -> Column:
-    """Return the column of R = 1 m with a slenderness in degrees, to the rounding of its sides."""
+def column_of(degrees: float, size: float = 1.0) -> Column:
+    """Return the column of a slenderness in degrees and a size R in m, but for rounding."""
     slenderness = math.radians(degrees)
-    return Column(math.sin(slenderness), math.cos(slenderness))
+    return Column(size * math.sin(slenderness), size * math.cos(slenderness))
 
 
 def cap_of(spec: dict[str, float]) -> Cap:
