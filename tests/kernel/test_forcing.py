@@ -14,15 +14,18 @@ from topheavy.ground.shapes import PULSE_SHAPES
 from topheavy.kernel.forcing import (
     bounds_after,
     equation,
+    extent,
     forcing_of,
     ground,
+    impulse_after,
     next_uplift,
     piece_of,
     record_waveform,
     unit_pulse,
+    variation,
 )
 from topheavy.kernel.rest import comes_to_rest
-from topheavy.kernel.taylor import State, oscillator
+from topheavy.kernel.taylor import Method, State, oscillator
 
 RATIO = 2.5  # ω/p; with p = 1 the kernel's time is that of a `Pulse`
 PULSES = [*((shape, 1) for shape in PULSE_SHAPES), ("one-sine", 3), ("one-cosine", 7)]
@@ -187,6 +190,52 @@ def test_bounds_hold_for_the_rest_of_both_records():
     assert bounds_after(falling, 0.0)[0] == math.inf
 
 
+def test_impulse_and_variation_of_two_records_bound_those_that_are_left():
+    """Against a fine scan, in which a piece that passes zero has less impulse than its chord."""
+    _, _, both = shaken(5, 0.731)
+    there = forcing_of(both, STEP, 2.0, -1.1)
+    times = np.linspace(0.0, 1.01 * there.end, 60_001)
+    motion = np.array([ground(there, time) for time in times])
+    a, v = motion[:, 0], motion[:, 2] - 1.0
+    steps = np.abs(np.diff(a)) + 0.2 * np.abs(np.diff(v))
+    for k in range(0, times.size, 1771):
+        impulses = impulse_after(
+            there, times[k], min(piece_of(there, times[k]), both.record.shape[1] - 1)
+        )
+        for impulse, left in zip(impulses, (a, v), strict=True):
+            exact = np.trapezoid(np.abs(left[k:]), times[k:])
+            assert exact - 1e-9 <= impulse <= 1.2 * exact + 2 * STEP * np.abs(left).max()
+        for end in (k + 3, k + 700, times.size - 1):
+            end = min(end, times.size - 1)
+            bound, exact = variation(there, times[k], times[end], 0.2), steps[k:end].sum()
+            assert exact * (1 - 1e-9) - 1e-9 <= bound <= exact + steps.max() + 1e-9
+
+
+@EVERY
+def test_extent_and_impulse_of_a_pulse_are_those_of_a_fine_scan(shape, cycles):
+    pulse = pulse_forcing(shape, -0.7, RATIO, cycles)
+    if pulse.end == math.inf:
+        return
+    times = np.linspace(0.0, pulse.end * (1 - 1e-12), 40_001)
+    a = np.array([ground(pulse, time)[0] for time in times])
+    for k in range(1, times.size - 1, 999):
+        impulse, exact = (
+            impulse_after(pulse, times[k], 0)[0],
+            np.trapezoid(np.abs(a[k:]), times[k:]),
+        )
+        assert impulse == math.inf or impulse == pytest.approx(exact, rel=1e-3, abs=1e-6)
+        for end in (min(k + 500, times.size - 1), times.size - 1):
+            largest, changes = extent(pulse, times[k], times[end])
+            assert largest == pytest.approx(np.abs(a[k : end + 1]).max(), rel=1e-6)
+            exact = np.abs(np.diff(a[k : end + 1])).sum()
+            assert changes == pytest.approx(exact, rel=1e-4) or 8.0 < changes < exact
+        beyond = extent(pulse, times[k], 1.1 * pulse.end)[1]
+        assert beyond == pytest.approx(changes + abs(a[-1]), abs=1e-9)
+        assert np.isfinite(impulse) == (
+            "ricker" in shape and (np.sign(a[k:-1]) == np.sign(a[-1])).all()
+        )
+
+
 def test_rest_is_not_called_when_gravity_is_about_to_fall():
     """The ground pushes at 0.9 of the level all the time; gravity falls below that at sample 20."""
     across, up = np.full(200, 0.9 * BLOCK.uplift_level), np.zeros(200)
@@ -197,4 +246,5 @@ def test_rest_is_not_called_when_gravity_is_about_to_fall():
         for side in (-1.0, 1.0):
             push = -side * 0.9 * BLOCK.uplift_level - BLOCK.uplift_level
             state = State(0.0185, side, 0.0, 2e-6, 0.0, 1.0, push, 0.0, 1.0, 0.0)
-            assert comes_to_rest(BLOCK, there, state, 1.0, 1e-6) is expected
+            method = Method(8, 3e-10, True)
+            assert comes_to_rest(BLOCK, there, state, method, 1.0) is expected

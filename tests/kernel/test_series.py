@@ -46,7 +46,7 @@ def state_of(block, motion, time, side, rotation, velocity):
 
 def series(block, motion, time, state, is_straight=False, order=ORDER):
     w = working_array()
-    method = Method(order, 1e-16, is_straight, 1e-6)
+    method = Method(order, 1e-16, is_straight)
     expand(w, method, oscillator(block), state, equation(motion, time))
     return w
 
@@ -107,7 +107,7 @@ def test_derivatives_are_those_of_the_recurrences(rotation, velocity, push, rate
     sine, cosine = math.sin(rotation), math.cos(rotation)
     state = State(0.0, 1.0, rotation, velocity, sine, cosine, push, rate, 1.0, 0.0)
     w = working_array()
-    expand(w, Method(8, 1e-16, True, 1e-6), ONE_METRE, state, (0.0, 0.0, 0.0))
+    expand(w, Method(8, 1e-16, True), ONE_METRE, state, (0.0, 0.0, 0.0))
     tilt, lean = math.cos(alpha - rotation), math.sin(alpha - rotation)
     force = math.sin(rotation) / math.cos(alpha) + push * tilt
     slope = math.cos(rotation) / math.cos(alpha) + push * lean

@@ -68,7 +68,7 @@ def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
 def planted(monkeypatch, edges):
     """Let the factors between each second pair of ascending edges overturn, under any motion."""
 
-    def outcomes(cases, which, factors):
+    def outcomes(cases, which, factors, detail=None):
         overturned = np.searchsorted(edges, factors, side="right") % 2 == 1
         return None, overturned, np.zeros(factors.size, np.int64)
 

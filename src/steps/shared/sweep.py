@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from replication.step import geometric, run
 from steps.shared import filtered_noise, synthetic
 from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn, Record, RockingBlock, RockingFrame
-from topheavy.kernel.grid import OVERTURNING, PEAKS
+from topheavy.kernel.taylor import OUTCOME, PEAK
 from topheavy.outcomes.search import cases_of, outcomes_of_factors
 
 FAMILIES = ("near-fault", "broadband")
@@ -158,8 +158,8 @@ def answers(questions: Sequence[Question], record: Record, up: Record | None) ->
     blocks = [block for one in questions for block in one.blocks]
     index = np.repeat(np.arange(len(blocks)), [row.size for grid in grids for row in grid])
     cases = cases_of(blocks, record, (factors.min(), factors.max()), up)
-    wanted = PEAKS if any(one.of_peaks for one in questions) else OVERTURNING
-    peaks, overturned, _ = outcomes_of_factors(cases, index, factors, wanted=wanted)
+    detail = PEAK if any(one.of_peaks for one in questions) else OUTCOME
+    peaks, overturned, _ = outcomes_of_factors(cases, index, factors, detail=detail)
     found, ends = [], np.cumsum([grid.size for grid in grids])
     for one, grid, end in zip(questions, grids, ends, strict=True):
         some = slice(end - grid.size, end)

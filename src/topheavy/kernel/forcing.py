@@ -43,24 +43,11 @@ DRAG = np.array([*(wave.drag for wave in WAVES.values()), 0.0, 0.0])
 RICKER_TURNS = np.array(
     [(*WAVES[name].turns, math.inf)[:4] for name in ("ricker-symmetric", "ricker-antisymmetric")]
 )
-#: The phases after which a Ricker wavelet has its last lobe before it, and falls for good; that lobe.
-RICKER_TAILS = np.array(
-    [
-        (CENTRE, CENTRE + 2.0 * math.sqrt(1.5), 2.0 * math.exp(-1.5)),
-        (
-            CENTRE + math.sqrt(3.0 * (3.0 - math.sqrt(6.0))),
-            CENTRE + math.sqrt(3.0 * (3.0 + math.sqrt(6.0))),
-            0.2728,
-        ),
-    ]
-)
 #: A Ricker wavelet has at most five monotone pieces, each of which rounding may cut in two. In as
 #: many of a sine's or cosine's, |a| reaches its largest value more than once.
 MAX_PIECES = 10
 #: Newton's steps for a crossing, of which six are usual. As many halvings leave 2⁻⁶⁴ of a piece.
 MAX_NEWTON_STEPS = 64
-#: No shape of unit amplitude exceeds this (the antisymmetric wavelet does exceed 1, by 1.4e-5).
-UNIT_BOUND = 1.0001
 #: Samples of two records that are as near, relative to the duration, are at the same time.
 SAME_TIME = 1e-9
 
@@ -85,14 +72,15 @@ class Forcing(NamedTuple):
     record: Array
 
 
-NO_RECORD = np.empty((11, 0))
+NO_RECORD = np.empty((13, 0))
 #: Pieces whose largest values are kept, so that a search for the next uplift can skip them.
 RUN_LENGTH = 32
 #: Rows of a record: a where a piece begins and where it ends; v there; the time at which it begins,
 #: over that between two samples; the largest |a| and the largest |v| from there on; those of each
-#: run; the integrals of |a| and of |v| from there on, over the time between two samples.
+#: run; a bound on the integrals of |a| and |v| from there on, over the time between two samples;
+#: the total variation of a and v up to there.
 A_START, A_END, V_START, V_END, TIME, A_MAX, V_MAX, A_MAX_OF_RUN, V_MAX_OF_RUN = range(9)
-A_LEFT, V_LEFT = 9, 10
+A_IMPULSE, V_IMPULSE, A_VARIATION, V_VARIATION = range(9, 13)
 
 
 NO_MOTION = Waveform(NONE, 0.0, NO_RECORD)
@@ -129,7 +117,7 @@ def prepare_record(samples: Array, vertical: Array | None = None, ratio: float =
 
     Returns
     -------
-    ndarray, shape (9, n)
+    ndarray, shape (13, n)
         A column for each piece, and one for the end of both. A record is zero after its end.
     """
     time = np.arange(samples.size, dtype=float)
@@ -144,14 +132,22 @@ def prepare_record(samples: Array, vertical: Array | None = None, ratio: float =
     a_max, a_max_of_run = _bounds(a_start, a_end)
     v_max, v_max_of_run = _bounds(v_start, v_end)
     ends = (a_start, a_end, v_start, v_end)
-    left = (_left(time, a_start, a_end), _left(time, v_start, v_end))
-    return np.stack([*ends, time, a_max, v_max, a_max_of_run, v_max_of_run, *left])
+    bounds = (time, a_max, v_max, a_max_of_run, v_max_of_run)
+    impulses = (_impulse(time, a_start, a_end), _impulse(time, v_start, v_end))
+    return np.stack(
+        [*ends, *bounds, *impulses, _variation(a_start, a_end), _variation(v_start, v_end)]
+    )
 
 
-def _left(time: Array, start: Array, end: Array) -> Array:
+def _impulse(time: Array, start: Array, end: Array) -> Array:
     """Return a bound on the integral of the modulus from each piece on: that of its chords."""
     pieces = 0.5 * (np.abs(start) + np.abs(end))[:-1] * np.diff(time)
     return np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
+
+
+def _variation(start: Array, end: Array) -> Array:
+    """Return the total variation from the first piece to each, its jumps included."""
+    return np.append(0.0, np.cumsum(np.abs(end - start)[:-1] + np.abs(start[1:] - end[:-1])))
 
 
 def _ends(time: Array, record: Array, step: float) -> tuple[Array, Array]:
@@ -236,43 +232,77 @@ def bounds_after(forcing, time):
         if change >= 1.0:
             return np.inf, 1.0 + change
         return abs(forcing.amplitude) * forcing.record[A_MAX, k] / (1.0 - change), 1.0 + change
-    strength = UNIT_BOUND * abs(forcing.amplitude)
-    if forcing.wave == RICKER_SYMMETRIC or forcing.wave == RICKER_ANTISYMMETRIC:
-        first, last, lobe = RICKER_TAILS[forcing.wave - RICKER_SYMMETRIC]
-        phase = forcing.frequency * time
-        if phase >= last:
-            now = unit_pulse(forcing.wave, phase)[0]
-            strength *= abs(now)
-        elif phase >= first:
-            strength *= lobe
-    return strength, 1.0
+    return extent(forcing, time, forcing.end)[0], 1.0
+
+
+@compiled
+def extent(forcing, start, stop):
+    """Return the largest |a| of a pulse from `start`, before its end, to `stop`; its variation.
+
+    Between two turns a(τ) is monotone. A pulse drops to zero at its end. A sine or a cosine whose
+    variation is cut short by `MAX_PIECES` has varied by sixteen times its amplitude.
+    """
+    value = forcing.amplitude * unit_pulse(forcing.wave, forcing.frequency * start)[0]
+    largest, variation, time = abs(value), 0.0, start
+    for _ in range(MAX_PIECES):
+        if time >= min(stop, forcing.end):
+            break
+        time = min(next_turn(forcing, time), stop)
+        turn = forcing.amplitude * unit_pulse(forcing.wave, forcing.frequency * time)[0]
+        largest, variation, value = max(largest, abs(turn)), variation + abs(turn - value), turn
+    return largest, variation + abs(value) if stop > forcing.end else variation
+
+
+@compiled
+def variation(forcing, start, stop, level):
+    """Return a bound on the total variation of a plus `level` times that of v."""
+    if forcing.wave == RECORD:
+        return _variation_until(forcing, stop, level) - _variation_until(forcing, start, level)
+    return extent(forcing, start, stop)[1]
+
+
+@compiled
+def _variation_until(forcing, time, level):
+    piece, size, most = (
+        piece_of(forcing, time),
+        abs(forcing.amplitude),
+        abs(forcing.vertical_factor),
+    )
+    total = size * forcing.record[A_VARIATION, piece]
+    total += level * most * forcing.record[V_VARIATION, piece]
+    if piece + 1 < forcing.record.shape[1]:
+        _, rate, _, change = ground_of_piece(forcing, piece)
+        total += (abs(rate) + level * abs(change)) * (time - piece_start(forcing, piece))
+    return total
 
 
 @compiled
 def impulse_after(forcing, time, piece):
-    """Return bounds on the integrals of |a| and of |v| over τ from `time` on, infinite if unknown.
+    """Return bounds on the integrals of |a| and of |v| over τ from `time` on.
 
-    Of a record they are those from the beginning of its piece on.
+    They are known of a record, from the beginning of its piece on, and of a Ricker wavelet behind
+    its last zero. There, by the formulas of `pulses.unit_wave` with ω/p = κ,
+
+        a = (1 − 2y²) e^(−y²) = (y e^(−y²))',             y = (κτ − CENTRE)/2,    y² > 1/2,
+        a = x (x² − 3) e^(−x²/2) = ((1 − x²) e^(−x²/2))', x = (κτ − CENTRE)/√3,   x² > 3,
+
+    where x and y are positive. Else the first bound is infinite.
     """
     wave, frequency = forcing.wave, forcing.frequency
     if wave == NONE or time >= forcing.end:
         return 0.0, 0.0
     if wave == RECORD:
-        size, most = abs(forcing.amplitude) * forcing.step, abs(forcing.vertical_factor)
-        return (
-            size * forcing.record[A_LEFT, piece],
-            most * forcing.step * forcing.record[V_LEFT, piece],
-        )
-    size = abs(forcing.amplitude) / frequency
-    if wave == RICKER_SYMMETRIC:
-        y = 0.5 * (frequency * time - CENTRE)
-        if y * y > 0.5 and y > 0.0:  # past its last zero; (y exp(−y²))' = (1 − 2y²) exp(−y²)
-            return size * 2.0 * y * math.exp(-y * y), 0.0
-    if wave == RICKER_ANTISYMMETRIC:
-        x = (frequency * time - CENTRE) / math.sqrt(3.0)
-        if x * x > 3.0 and x > 0.0:
-            bell = math.exp(-0.5 * x * x) / ANTISYMMETRIC_PEAK
-            return size * math.sqrt(3.0) * (x * x - 1.0) * bell, 0.0
+        size, most = abs(forcing.amplitude), abs(forcing.vertical_factor)
+        record, step = forcing.record, forcing.step
+        return size * step * record[A_IMPULSE, piece], most * step * record[V_IMPULSE, piece]
+    size, lag = abs(forcing.amplitude) / frequency, frequency * time - CENTRE
+    if wave == RICKER_SYMMETRIC and lag > math.sqrt(2.0):
+        y = lag / 2.0
+        return size * 2.0 * y * math.exp(-y * y), 0.0
+    if wave == RICKER_ANTISYMMETRIC and lag > 3.0:
+        x = lag / math.sqrt(3.0)
+        bell = math.exp(-0.5 * x * x) / ANTISYMMETRIC_PEAK
+        return size * math.sqrt(3.0) * (x * x - 1.0) * bell, 0.0
     return np.inf, 0.0
 
 

@@ -30,18 +30,13 @@ from topheavy.kernel.history import (
     judge,
     sample,
 )
-from topheavy.kernel.rest import MIN_COUNTED_PEAK
 from topheavy.kernel.step import HALT, MAX_STEPS, PULSE_ORDER, TOLERANCE, working_array
-from topheavy.kernel.taylor import Method, Oscillator
+from topheavy.kernel.taylor import IMPACTS, OUTCOME, Method, Oscillator
 
 #: Histories are split into at most so many batches, which threads take up as they come free.
 MAX_BATCHES = 64
 #: The least number of histories in a batch: fewer are over before a second thread has started.
 MIN_PULSES, MIN_FACTORS = 256, 32
-#: What is asked of a history: whether it overturns; its peak, too; or all, with its impacts.
-OVERTURNING, PEAKS, ALL = range(3)
-#: Bounces of a pulse's history lower than this, over α, are left out where impacts do not count.
-LEAST = 1e-2
 #: Histories of fewer samples, all together, are over within a second or two, whatever happens.
 MIN_THREADED_SAMPLES = 100_000
 
@@ -59,7 +54,10 @@ class Cells(NamedTuple):
 
 
 class Results(NamedTuple):
-    """Arrays with the peak rotation of each history, whether it overturns, and its impacts."""
+    """Arrays with the peak rotation of each history, whether it overturns, and its impacts.
+
+    Without the detail `taylor.PEAK` peaks are NaN; without `IMPACTS` only zero impacts are exact.
+    """
 
     peaks: Array
     overturned: NDArray[np.bool_]
@@ -84,7 +82,7 @@ def outcomes_of(
     vertical_factors: Array | None = None,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
-    wanted: int = ALL,
+    detail: int = IMPACTS,
 ) -> Results:
     """Return the outcomes of histories of several blocks, each with its scale and amplitude.
 
@@ -100,6 +98,8 @@ def outcomes_of(
         The factors on the vertical record; 0 unless given.
     threads : int, optional
         As `cores`, unless given.
+    detail : int
+        `taylor.OUTCOME`, `PEAK` or `IMPACTS`: how much is computed. Less is faster.
 
     Raises
     ------
@@ -121,7 +121,7 @@ def outcomes_of(
     rows = np.array([tuple(map(float, block)) for block in blocks])
 
     def judge_batch(first: int, last: int, w: Array) -> int:
-        return int(judge_cells(w, tolerance, rows, waveform, cells, first, last, results, wanted))
+        return int(judge_cells(w, tolerance, rows, waveform, cells, first, last, results, detail))
 
     batches = max(1, min(MAX_BATCHES, size // (MIN_FACTORS if is_record else MIN_PULSES)))
     if batches == 1 and size * max(waveform.record.shape[1], 1) <= MIN_THREADED_SAMPLES:
@@ -138,7 +138,7 @@ def outcomes_of(
 
 
 @compiled(nogil=True)
-def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results, wanted):
+def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results, detail):
     """Fill the results from the first cell to the one before the last; stop where one is given up.
 
     Returns
@@ -155,13 +155,13 @@ def judge_cells(w, tolerance, blocks, waveform, cells, first, last, results, wan
             cells.vertical_factor[cell],
         )
         forcing = forcing_of(waveform, scale, amplitude, vertical_factor)
-        least = MIN_COUNTED_PEAK if wanted == 2 or waveform.wave == RECORD else LEAST
-        method = Method(cells.order[cell], tolerance, is_straight(waveform.wave), least)
-        history = judge(w, method, block, forcing, wanted)
+        method = Method(cells.order[cell], tolerance, is_straight(waveform.wave), detail)
+        history = judge(w, method, block, forcing)
         if history.result == UNRESOLVED:
             return cell
         results.overturned[cell] = history.result == OVERTURNED
-        results.peaks[cell] = math.nan if results.overturned[cell] else history.peak
+        has_peak = detail != OUTCOME and not results.overturned[cell]
+        results.peaks[cell] = history.peak if has_peak else math.nan
         results.impacts[cell] = history.impacts
     return -1
 
@@ -209,7 +209,7 @@ def sampled(
     """Return the history of a block from θ and dθ/dτ on, and fill its samples; see `sample`."""
     is_record = forcing.wave == RECORD
     order = record_order(forcing.step, tolerance) if is_record else PULSE_ORDER
-    method = Method(order, tolerance, is_straight(forcing.wave), MIN_COUNTED_PEAK)
+    method = Method(order, tolerance, is_straight(forcing.wave), IMPACTS)
 
     def call(w: Array) -> History:
         history: History = sample(w, method, block, forcing, *start, until, samples)

@@ -40,7 +40,7 @@ from topheavy.kernel.step import (
     is_certain_to_survive,
     with_ground,
 )
-from topheavy.kernel.taylor import Method, State, evaluate
+from topheavy.kernel.taylor import IMPACTS, OUTCOME, Method, State, evaluate
 
 NO_UPLIFT, RESTS, ROCKING, OVERTURNED, UNRESOLVED = range(5)
 #: The event of a step that ends with a piece of a record, beside those of `step`.
@@ -98,11 +98,11 @@ class RockingState(NamedTuple):
 
 
 @compiled(inline="always")
-def judge(w, method, block, forcing, wanted):
+def judge(w, method, block, forcing):
     """Follow a block from rest until its outcome is known and return its `History`."""
     state = State(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0)
-    unknown = block.flat if wanted == 0 else 0.0  # no peak is looked for below it
-    motion = RockingState(state, 0, 0, False, True, False, unknown, 0)
+    least_peak = block.flat if method.detail == OUTCOME else 0.0  # no lower one is looked for
+    motion = RockingState(state, 0, 0, False, True, False, least_peak, 0)
     for _ in range(MAX_STEPS + 10 * forcing.record.shape[1]):
         if w[HALT, 0] != 0.0:
             break
@@ -111,13 +111,13 @@ def judge(w, method, block, forcing, wanted):
             if not motion.rocks:
                 result = RESTS if motion.has_rocked else NO_UPLIFT
                 return History(forcing.end, result, motion.peak, motion.impacts, motion.impacts)
-        if wanted < 2 and is_certain_to_survive(
-            block, forcing, motion.state, motion.piece, wanted == 1, motion.peak
+        if method.detail != IMPACTS and is_certain_to_survive(
+            block, forcing, motion.state, motion.piece, motion.peak
         ):
             return History(forcing.end, ROCKING, motion.peak, motion.impacts, motion.impacts)
         motion, event = next_event(w, method, block, forcing, motion, forcing.end)
         if event == PIECE_END and not (motion.is_low or block.linearised):
-            motion = _march(block, forcing, motion, method, wanted < 2)
+            motion = _march(w, method, block, forcing, motion)
         state, peak, impacts = motion.state, motion.peak, motion.impacts
         if event == FLAT or is_certain_to_overturn(block, forcing, state):
             return History(state.time, OVERTURNED, peak, impacts, impacts)
@@ -168,7 +168,7 @@ def sample(w, method, block, forcing, rotation, velocity, until, samples):
 def _sample_free(w, tolerance, block, forcing, motion, until, samples, filled):
     """Follow a block from the end of the forcing on, fill samples and return its `History`."""
     still = Forcing(NONE, 0.0, 1.0, forcing.end, 1.0, 0.0, forcing.record)
-    method, begin, flights = Method(PULSE_ORDER, tolerance, True, MIN_COUNTED_PEAK), motion.state.time, 0
+    method, begin, flights = Method(PULSE_ORDER, tolerance, True, IMPACTS), motion.state.time, 0
     state, forced, flight_start = motion.state, motion.impacts, begin
     if not motion.rocks:
         _fill_rest(samples, filled, math.inf if not motion.has_rocked else MAX_TIME)
@@ -241,7 +241,7 @@ def next_event(w, method, block, forcing, motion, until):
     if event == LANDING or (event == NOTHING and state.rotation <= 0.0):
         impacts += 0 if is_low else 1
         event, is_low, zero_order, state = LANDING, True, 1, after_impact(block, state)
-        if time < forcing.end and comes_to_rest(block, forcing, state, peak, method.least):
+        if time < forcing.end and comes_to_rest(block, forcing, state, method, peak):
             rocks, state = False, at_time(state, next_tick(time))
     if is_record and state.time >= stop:
         piece += 1
@@ -276,13 +276,13 @@ def _first_motion(block, forcing, rotation, velocity):
 
 
 @compiled
-def _march(block, forcing, motion, method, leaves):
+def _march(w, method, block, forcing, motion):
     """Return the motion after the pieces of a record that `skip_quiet_pieces` passes over."""
-    piece, state, peak, impacts, is_low = skip_quiet_pieces(
-        block, forcing, motion.state, motion.piece, method, motion.peak, motion.impacts, leaves
+    state, piece, peak, impacts = skip_quiet_pieces(
+        w, method, block, forcing, motion.state, motion.piece, motion.peak, motion.impacts
     )
     zero_order = 1 if state.rotation == 0.0 else 0
-    return RockingState(state, zero_order, piece, True, is_low, True, peak, impacts)
+    return RockingState(state, zero_order, piece, True, False, True, peak, impacts)
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""The pieces of a record over which nothing happens, one short series each.
+"""The pieces of a record over which nothing happens, or a landing only, one short series each.
 
 Between two samples the push q is a straight line, q' = q₁, and the samples are so close that seven
 terms of φ are plenty. Their coefficients have a closed form: with the force of Eq. (23), its slope,
@@ -15,12 +15,14 @@ Gravity multiplies sin φ / cos α and cos φ / cos α. It is a straight line, t
 slope are added to E and H.
 """
 
-import math
+import numpy as np
 
+from topheavy.kernel.bernstein import isolated_root
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import TIME, ground_of_piece, impulse_after, piece_start
-from topheavy.kernel.rest import MIN_COUNTED_PEAK
-from topheavy.kernel.taylor import INVERSE, State
+from topheavy.kernel.forcing import ground_of_piece, piece_start
+from topheavy.kernel.rest import may_rest
+from topheavy.kernel.step import POLYNOMIAL, after_impact, is_certain_to_survive
+from topheavy.kernel.taylor import IMPACTS, INVERSE, State
 
 #: Between two samples the block turns by less than this, so that seven terms give sin and cos.
 MAX_TURN = 0.05
@@ -28,8 +30,6 @@ MAX_TURN = 0.05
 MAX_PIECES_BEYOND = 32
 #: Relative to φ = π/2: up to this rotation no piece reaches the end of the exact motion.
 MAX_ROTATION = 0.9
-#: For a landing; four are usual.
-MAX_NEWTON_STEPS = 12
 
 
 @compiled(fastmath={"contract"})
@@ -76,8 +76,8 @@ def powers(h):
 
 
 @compiled(fastmath={"contract"}, forceinline=True, no_cpython_wrapper=False)
-def short_series(h, force, slope, force_rate, slope_rate, velocity, rotation, peak, bound):
-    """Return whether a piece is proven to hold nothing, and by how much φ and φ' change in it.
+def short_series(h, force, slope, force_rate, slope_rate, velocity, bound):
+    """Return whether seven terms suffice for a piece, its terms of φ, and by how much φ' changes.
 
     `h` is its length, `bound` that on the first term of φ' left out. That term may vanish, and then
     h/7 of the last term kept stands for it. If the last term kept is as small, so is the first left
@@ -85,70 +85,45 @@ def short_series(h, force, slope, force_rate, slope_rate, velocity, rotation, pe
     """
     h1, h2, h3, h4, h5, h6, h7 = powers(h)
     d3, d4, d5, d6, d7 = derivatives(force, slope, force_rate, slope_rate, velocity)
-    if h6 * max(abs(d7), abs(d6)) > bound:
-        d8 = eighth_derivative(force, slope, force_rate, slope_rate, velocity)
-        if h7 * max(abs(d8), abs(d7)) > bound:
-            return False, 0.0, 0.0
-    c1, c2, c3, c4, c5, c6, c7 = (
-        h1 * velocity,
-        h2 * force,
-        h3 * d3,
-        h4 * d4,
-        h5 * d5,
-        h6 * d6,
-        h7 * d7,
-    )
-    others = abs(c3) + abs(c4) + abs(c5) + abs(c6) + abs(c7)
-    turn = ((c1 + c2) + (c3 + c4)) + (c5 + c6) + c7
-    rises = min(c1, c1 + 2 * c2) > 7 * others
-    if not rises:
-        low = min(0.5 * c1, c1 + c2, 0.0) - others
-        high = max(0.5 * c1, c1 + c2, 0.0) + others
-        if rotation + low <= 0.0 or rotation + high > peak:
-            return False, 0.0, 0.0
+    terms = h1 * velocity, h2 * force, h3 * d3, h4 * d4, h5 * d5, h6 * d6, h7 * d7
     gain = ((h1 * force + h2 * d3) + (h3 * d4 + h4 * d5)) + (h5 * d6 + h6 * d7)
-    return abs(turn) <= MAX_TURN, turn, gain
+    is_enough = h6 * max(abs(d7), abs(d6)) <= bound
+    if not is_enough:
+        d8 = eighth_derivative(force, slope, force_rate, slope_rate, velocity)
+        is_enough = h7 * max(abs(d8), abs(d7)) <= bound
+    return is_enough, terms, gain
+
+
+@compiled(fastmath={"contract"}, forceinline=True)
+def is_quiet(terms, rotation, peak):
+    """Return whether φ surely stays positive, and grows throughout or stays below `peak`."""
+    c1, c2, c3, c4, c5, c6, c7 = terms
+    others = abs(c3) + abs(c4) + abs(c5) + abs(c6) + abs(c7)
+    if min(c1, c1 + 2 * c2) > 7 * others:
+        return True
+    low = min(0.5 * c1, c1 + c2, 0.0) - others
+    high = max(0.5 * c1, c1 + c2, 0.0) + others
+    return rotation + low > 0.0 and rotation + high <= peak
 
 
 @compiled(fastmath={"contract"})
-def landing(h, force, slope, force_rate, slope_rate, velocity, rotation, bound):
-    """Return the share of a piece after which a block lands, and φ' there; 2 if that is not proven.
+def landing(w, terms, rotation):
+    """Return the share of a piece after which the block lands, and dφ/dx there, x being the share.
 
-    It falls throughout, so that Newton's steps from either side lead to the one root.
+    It falls throughout, with φ < 0 at the end: there is one root. Otherwise the share is infinite.
     """
-    h1, h2, h3, h4, h5, h6, h7 = powers(h)
-    d3, d4, d5, d6, d7 = derivatives(force, slope, force_rate, slope_rate, velocity)
-    if h6 * max(abs(d7), abs(d6)) > bound:
-        d8 = eighth_derivative(force, slope, force_rate, slope_rate, velocity)
-        if h7 * max(abs(d8), abs(d7)) > bound:
-            return 2.0, 0.0
-    c1, c2, c3, c4 = h1 * velocity, h2 * force, h3 * d3, h4 * d4
-    c5, c6, c7 = h5 * d5, h6 * d6, h7 * d7
+    c1, c2, c3, c4, c5, c6, c7 = terms
     others = abs(c3) + abs(c4) + abs(c5) + abs(c6) + abs(c7)
-    if max(c1, c1 + 2 * c2) >= -7 * others or rotation + c1 + c2 + others > 0.0:
-        return 2.0, 0.0
-    x, rate = rotation / (rotation - (rotation + c1 + c2 + c3)), c1
-    for _ in range(MAX_NEWTON_STEPS):
-        value, rate = c7, 0.0
-        rate = rate * x + value
-        value = value * x + c6
-        rate = rate * x + value
-        value = value * x + c5
-        rate = rate * x + value
-        value = value * x + c4
-        rate = rate * x + value
-        value = value * x + c3
-        rate = rate * x + value
-        value = value * x + c2
-        rate = rate * x + value
-        value = value * x + c1
-        rate = rate * x + value
-        value = value * x + rotation
-        change = value / rate
-        x -= change
-        if abs(change) <= 1e-12 * x:
-            return (x, rate / h) if 0.0 < x <= 1.0 else (2.0, 0.0)
-    return 2.0, 0.0
+    w[POLYNOMIAL, 0], final, slope = rotation, rotation, 0.0
+    for k in range(7):
+        w[POLYNOMIAL, k + 1] = terms[k]
+        final += terms[k]
+    if max(c1, c1 + 2 * c2) >= -7 * others or final >= 0.0:
+        return np.inf, 0.0
+    share = isolated_root(w, POLYNOMIAL, 0, 7, 0.0, 1.0, 1.0)
+    for k in range(7, 0, -1):
+        slope = slope * share + k * w[POLYNOMIAL, k]
+    return share, slope
 
 
 @compiled(fastmath={"contract"}, forceinline=True)
@@ -161,85 +136,82 @@ def turned(sine, cosine, turn):
 
 
 @compiled(fastmath={"contract"})
-def skip_quiet_pieces(block, forcing, state, piece, method, peak, impacts, leaves):
-    """Pass over pieces of a record, and landings in them, until one is not proven.
+def skip_quiet_pieces(w, method, block, forcing, state, piece, peak, impacts):
+    """Pass over pieces of a record until one is not settled here.
 
-    The block rocks under the exact equation; `state` is that at the first sample of `piece`. A
-    piece is passed over if the terms prove (as in `step.advance`) that it holds no impact and that
-    the rotation grows throughout, or stays below `peak`, the largest φ so far. A landing is passed
-    if it is proven to be the only one in its piece, and too fast to be the first of a train of
-    bounces that ends in rest. If the block `leaves`, it stops where its survival is certain.
+    The block rocks under the exact equation, not below `rest.MIN_COUNTED_PEAK` α. A piece is passed
+    over if the terms prove (as in `step.advance`) that it holds no impact and that the rotation
+    grows throughout, or stays below `peak`, the largest φ so far. The first term of φ' left out is
+    at most the tolerance times α.
+
+    Where not all impacts have to be counted, a block also passes a landing that is proven to be the
+    only one in its piece, and too fast for the rest that `rest.comes_to_rest` proves. It stops
+    there if it is certain to survive.
 
     Returns
     -------
-    piece, state, peak, impacts
-    is_low : bool
-        The flight is below `MIN_COUNTED_PEAK` α so far.
+    state : State
+        Where the first piece that is not passed over begins, or behind a landing in it.
+    piece : int
+        This piece.
+    peak : float
+        The largest φ so far.
+    impacts : int
     """
-    bound, inverse_cosine = method.tolerance * block.slenderness, 1.0 / block.cosine
-    record, beyond = forcing.record, 0
+    bound, inverse_cosine, beyond = method.tolerance * block.slenderness, 1.0 / block.cosine, 0
     time, side, rotation, velocity, sine, cosine, push, rate, gravity, change = state
-    slight, is_low = MIN_COUNTED_PEAK * block.slenderness, False
-    barrier = math.sqrt(2.0 * (1.0 - block.cosine))
-    time, inside = 0.0, False
     while piece_start(forcing, piece + 1) < forcing.end and beyond < MAX_PIECES_BEYOND:
         if rotation > block.slenderness:
             if rotation > MAX_ROTATION * block.flat:
                 break
             beyond += 1
-        h = (record[TIME, piece + 1] - record[TIME, piece]) * forcing.step
-        if inside:
-            h = piece_start(forcing, piece + 1) - time
+        end = piece_start(forcing, piece + 1)
+        h = end - time
         tilt = block.cosine * cosine + block.sine * sine  # cos(α − φ)
         lean = block.sine * cosine - block.cosine * sine  # sin(α − φ)
         weight, weight_rate = inverse_cosine * gravity, inverse_cosine * change
-        force, slope = sine * weight + push * tilt, cosine * weight + push * lean
-        force_rate, slope_rate = (
+        is_enough, terms, gain = short_series(
+            h,
+            sine * weight + push * tilt,
+            cosine * weight + push * lean,
             sine * weight_rate + rate * tilt,
             cosine * weight_rate + rate * lean,
+            velocity,
+            bound,
         )
-        is_passed, turn, gain = short_series(
-            h, force, slope, force_rate, slope_rate, velocity, rotation, peak, bound
-        )
-        if not is_passed:
-            if velocity >= 0.0 or is_low:
+        c1, c2, c3, c4, c5, c6, c7 = terms
+        turn = ((c1 + c2) + (c3 + c4)) + (c5 + c6) + c7
+        if not (is_enough and abs(turn) <= MAX_TURN):
+            break
+        if not is_quiet(terms, rotation, peak):
+            if method.detail == IMPACTS:
                 break
-            share, speed = landing(
-                h, force, slope, force_rate, slope_rate, velocity, rotation, bound
-            )
-            if share > 1.0:
+            share, slope = landing(w, terms, rotation)
+            after = share * h
+            if not time < time + after < end:
                 break
-            after, speed = share * h, -speed * block.restitution
-            weight = gravity + change * after
-            near, far = -(push + rate * after), push + rate * after + 2.0 * block.uplift_level * weight
-            weakest = min(near, far)
-            if weakest > 0.0 and speed * speed <= weakest * block.cosine * slight:
-                break  # it may come to rest
-            if not inside:
-                time = piece_start(forcing, piece)
-            time, inside, is_low = time + after, True, True
-            side, rotation, velocity, sine, cosine = -side, 0.0, speed, 0.0, 1.0
-            push, rate = -far, -rate - 2.0 * block.uplift_level * change
-            gravity = weight
+            touch = State(
+                time + after, side, 0.0, slope / h, 0.0, 1.0,
+                push + rate * after, rate, gravity + change * after, change,
+            )  # fmt: skip
+            landed = after_impact(block, touch)
+            if may_rest(block, landed, method, peak):
+                break
             impacts += 1
-            if leaves:
-                left, left_vertical = impulse_after(forcing, time, piece)
-                if speed + left + left_vertical * block.sine < barrier:
-                    break
+            time, side, rotation, velocity, sine, cosine, push, rate, gravity, change = landed
+            if is_certain_to_survive(block, forcing, landed, piece, peak):
+                break
             continue
         velocity += gain
         rotation += turn
         peak = max(peak, rotation)
         sine, cosine = turned(sine, cosine, turn)
         piece += 1
+        time = end
         value, slope, gravity, change = ground_of_piece(forcing, piece)
         push, rate = (
             -side * value - block.uplift_level * gravity,
             -side * slope - block.uplift_level * change,
         )
-        inside = False
-        is_low = is_low and rotation <= slight
-    if not inside:
-        time = piece_start(forcing, piece)
     state = State(time, side, rotation, velocity, sine, cosine, push, rate, gravity, change)
-    return piece, state, peak, impacts, is_low
+    return state, piece, peak, impacts

@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 
+from topheavy.bodies.free_rocking import potential
 from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, isolated_root, roots, to_bernstein
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import bounds_after, equation, impulse_after
@@ -62,25 +63,26 @@ def is_certain_to_overturn(block, forcing, state):
 
 
 @compiled
-def is_certain_to_survive(block, forcing, state, piece, needs_peak, peak):
-    """Return whether all that is left of a record cannot carry the block to φ = α.
+def is_certain_to_survive(block, forcing, state, piece, peak):
+    """Return whether what is left of the forcing takes the block neither to φ = α nor to `peak`.
 
-    With K = φ'²/2 + cos(α − φ) − cos α, S = √(2K) is the speed at φ = 0. Up to φ = α, S' ≤ |a| +
-    |v| sin α; an impact lessens S; and K = 1 − cos α has to be reached. Where the peak is asked
-    for, S may not reach that of the peak either.
+    Let S = √(φ'² + 2w), with the w(φ) of `bodies.free_rocking`: the speed at which a block without
+    forcing would pass φ = 0. With w' = sin(α − φ), Eq. (23) is
+    φ'' = −s a cos(α − φ) − (1 + v) sin(α − φ). Hence, for φ ≤ α, where |φ'| ≤ S,
+
+        S S' = φ' (φ'' + w') = −φ' (s a cos(α − φ) + v sin(α − φ)),    S' ≤ |a| + |v| α;
+
+    linearised, with 1 for the cosine and α − φ for the sine. An impact multiplies S by √r ≤ 1, and
+    a block at rest has S = 0. At a rotation φ, S is at least √(2w(φ)), which grows up to φ = α. So
+    no rotation is reached whose √(2w) exceeds S + ∫(|a| + α |v|) dτ over all that is left.
     """
-    if block.linearised or state.rotation > block.slenderness:
+    alpha = block.slenderness
+    push, weight = impulse_after(forcing, state.time, piece)
+    impulse = push + alpha * weight
+    if state.rotation > alpha or impulse >= alpha:  # √(2w(α)) ≤ α
         return False
-    push, change = impulse_after(forcing, state.time, piece)
-    left = push + change * block.sine
-    barrier = 2.0 * (1.0 - block.cosine)
-    if needs_peak:
-        barrier = min(barrier, 2.0 * (math.cos(block.slenderness - peak) - block.cosine))
-    if left * left >= barrier:
-        return False
-    tilt = block.cosine * state.cosine + block.sine * state.sine
-    square = state.velocity * state.velocity + 2.0 * (tilt - block.cosine)
-    return math.sqrt(max(square, 0.0)) + left < math.sqrt(barrier)
+    speed = math.sqrt(state.velocity * state.velocity + 2.0 * potential(block, state.rotation))
+    return speed + impulse < math.sqrt(2.0 * potential(block, min(peak, alpha)))
 
 
 @compiled(fastmath={"contract"})

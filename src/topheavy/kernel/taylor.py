@@ -74,13 +74,18 @@ class State(NamedTuple):
     gravity_rate: float
 
 
+#: How much of an outcome a history computes: whether the block overturns, and whether an impact
+#: comes before; the peak rotation of a survivor, too; or also the number of impacts.
+OUTCOME, PEAK, IMPACTS = range(3)
+
+
 class Method(NamedTuple):
-    """How a step is taken."""
+    """How a history is computed."""
 
     order: int  # of the series of φ
     tolerance: float  # bound on the last two terms of φ' in a step, normalised by α (φ if larger)
     is_straight: bool  # a and G are straight lines: a record's piece, a constant, no motion
-    least: float  # bounces lower than this, normalised by α, that surely end in rest are left out
+    detail: int = IMPACTS  # or `OUTCOME` or `PEAK`
 
 
 #: Rows of the working array `w`: the coefficients of φ, φ', sin φ, cos φ, cos(α − φ), q and G by

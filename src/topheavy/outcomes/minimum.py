@@ -15,7 +15,7 @@ from topheavy.bodies.structures import Structure, Structures, are_several, named
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.shapes import FiniteShape
-from topheavy.kernel.grid import OVERTURNING
+from topheavy.kernel.taylor import OUTCOME
 from topheavy.outcomes.search import (
     cases_of,
     checked_range,
@@ -169,7 +169,7 @@ def lowest_of_many(
         parts = [grids[at].factors(range(begin, min(end, grids[at].size))) for at in searched]
         case_index = np.repeat(searched, [part.size for part in parts])
         factors = np.concatenate(parts)
-        overturned = outcomes_of_factors(cases, case_index, factors, wanted=OVERTURNING)[1]
+        overturned = outcomes_of_factors(cases, case_index, factors, detail=OUTCOME)[1]
         for at in np.unique(case_index[overturned]).tolist():
             start[at] = begin + int(np.argmax(overturned[case_index == at]))
         begin, searched = end, [at for at in searched if start[at] < 0 and end < grids[at].size]

@@ -22,9 +22,9 @@ from topheavy.bodies.structures import (
 from topheavy.ground.excitation import Excitation, no_excitation
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record, both_records, check_no_free_fall
-from topheavy.kernel.grid import ALL, OVERTURNING, PEAKS, outcomes_of
+from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.step import TOLERANCE
-from topheavy.kernel.taylor import Oscillator, oscillator
+from topheavy.kernel.taylor import IMPACTS, OUTCOME, PEAK, Oscillator, oscillator
 from topheavy.outcomes.simulate import Shaking, as_shaking, checked_tolerance
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def overturned_by(
     """
     blocks = named_blocks(structure).values()
     _, overturned = peaks_and_outcomes(
-        [*blocks], excitation, factors, tolerance, vertical, scale_vertical, OVERTURNING
+        [*blocks], excitation, factors, tolerance, vertical, scale_vertical, OUTCOME
     )
     return overturned if are_several(structure) else overturned[0]
 
@@ -169,7 +169,7 @@ def peaks_and_outcomes(
     tolerance: float = TOLERANCE,
     vertical: Record | None = None,
     scale_vertical: bool = True,
-    wanted: int = PEAKS,
+    detail: int = PEAK,
 ) -> tuple[Factors, NDArray[np.bool_]]:
     """Return peak rotation (rad) and overturning under each factor, shape (structures, factors)."""
     scales = checks.axis_values("factors", factors, zero_allowed=True)
@@ -180,7 +180,7 @@ def peaks_and_outcomes(
         np.repeat(np.arange(len(cases)), scales.size),
         np.tile(scales, len(cases)),
         tolerance=checked_tolerance(tolerance),
-        wanted=wanted,
+        detail=detail,
     )
     shape = (len(cases), scales.size)
     return peak.reshape(shape), overturned.reshape(shape)
@@ -331,10 +331,10 @@ def intervals_on(
     most = np.iinfo(np.int64).max
     if most_impacts is not None:
         most = min(most, checks.whole("most_impacts", most_impacts, 0))
-    wanted = OVERTURNING if most <= 1 else ALL  # an impact is counted before its bounces end in rest
+    detail = OUTCOME if most <= 1 else IMPACTS
 
     def label(case_index: Indices, factors: Factors) -> Indices:
-        _, overturned, impacts = outcomes_of_factors(cases, case_index, factors, wanted=wanted)
+        _, overturned, impacts = outcomes_of_factors(cases, case_index, factors, detail=detail)
         return np.where(overturned, np.minimum(impacts, most), SURVIVES)
 
     case_index = np.repeat(np.arange(len(grids)), [grid.size for grid in grids])
@@ -411,11 +411,11 @@ def outcomes_of_factors(
     factors: Factors,
     *,
     tolerance: float = TOLERANCE,
-    wanted: int = ALL,
+    detail: int = IMPACTS,
 ) -> Outcomes:
     """Return peak rotation, overturning and impacts of each factor on its case.
 
-    `case_index` has the place of each factor's case in `cases`.
+    `case_index` has the place of each factor's case in `cases`; `detail` is that of `outcomes_of`.
     """
     peak = np.empty(case_index.size)
     overturned, impacts = np.empty(case_index.size, bool), np.empty(case_index.size, np.int64)
@@ -438,6 +438,6 @@ def outcomes_of_factors(
             amplitude[case] * factors[at],
             vertical_factors=np.where(scales_vertical[case], factors[at], 1.0),
             tolerance=tolerance,
-            wanted=wanted,
+            detail=detail,
         )
     return peak, overturned, impacts

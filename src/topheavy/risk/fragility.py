@@ -18,7 +18,7 @@ from topheavy import checks
 from topheavy.bodies.structures import Structures, named_blocks
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
-from topheavy.kernel.grid import OVERTURNING, PEAKS
+from topheavy.kernel.taylor import OUTCOME, PEAK
 from topheavy.outcomes.search import peaks_and_outcomes
 from topheavy.risk import inputs
 from topheavy.risk.curve import curve, dispersions, fit, medians, points_between, rises_past
@@ -248,7 +248,7 @@ def fragility(
             factors,
             vertical=up,
             scale_vertical=scale_vertical,
-            wanted=OVERTURNING if limit is None else PEAKS,
+            detail=OUTCOME if limit is None else PEAK,
         )
         return overturned if limit is None else ~(peaks <= limit)  # also where it is NaN
 
