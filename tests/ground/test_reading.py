@@ -11,7 +11,7 @@ import pytest
 
 from replication.config import components
 from tests.cases import MOTION, RECORDS, TIME
-from topheavy import read_record
+from topheavy import Record, read_record
 from topheavy.ground.reading import OTHER_READERS
 
 VALUES = "\n".join(f"{a:.7E}" for a in MOTION)
@@ -124,8 +124,8 @@ REFUSED = [
     (AT2.replace("A title", "\n" * 9), "expected 'NPTS= n, DT= s SEC' in the first ten"),
     (AT2.replace(".0100 SEC", "10"), "DT is 10 ; expected SEC or MSEC"),
     (AT2.replace(".0100 SEC", "10 MIN"), "DT is 10 MIN; expected SEC or MSEC"),
-    (AT2.replace(VALUES[:13], "x"), "could not convert string to float: .*'x'"),
-    (AT2.replace(VALUES[:13], "nan"), "the largest acceleration is nan g"),
+    (AT2.replace(VALUES[:13], "x"), "value 1 is 'x'; expected numbers"),
+    (AT2.replace(VALUES[:13], "nan"), "value 1 is 'nan'; expected numbers"),
     (AT2.replace("E-01", "E+01"), r"largest acceleration is 28\.\d+ g; .* at most 5 g"),
     (AT2.replace(VALUES, "0\n" * 400), "largest acceleration is 0 g"),
     (CSV.replace(HEADER, "Period (s),Sa (g)"), "is of a response spectrum"),
@@ -139,7 +139,20 @@ REFUSED = [
     (CSV.replace("(g)", "(counts)"), "expected a header such as"),
     (CSV.replace("(g)", "(g),b (g)"), r"as `column` .* 'acceleration' \(2\), 'b' \(3\)"),
     (AT2.replace(IN_G, "UNITS: G/10"), "the header states 'G/10'; expected one of g, %g"),
-    (AT2.replace(VALUES[:13], "1_0"), "could not convert string to float: .*'1__0'"),
+    (AT2.replace(VALUES[:13], "1_0"), "value 1 is '1_0'; expected numbers"),
+    (AT2.replace(VALUES[:13], "٣"), "value 1 is '٣'; expected numbers"),
+    (AT2.replace("A title", "From DT= .0050 SEC"), "0.005 and 0.01 as DT; expected one value"),
+    (AT2.replace("A title", "NPTS= 401"), "401 and 400 as NPTS; expected one value"),
+    (AT2.replace(".0100 SEC", ".01_00"), "DT is '.01_00'; expected a number with a point"),
+    (AT2.replace(".0100", "0,0100"), "DT is '0,0100'; expected a number with a point"),
+    (AT2.replace(".0100 SEC", "0.01١"), "DT is '0.01١'; expected a number"),
+    (AT2 + AT2, "line 406 is a second header; expected one record"),
+    (CSV.replace("0.02,", "0.02,nan,"), "line 4 is '0.02,nan,.*, with more cells than line 1"),
+    (re.sub("(?m)^0.02,.*", "0.02,nan", CSV), "line 4 is '0.02,nan'; expected numbers"),
+    (CSV.replace(".", ","), "line 2 is '0,00,.* if its commas are decimal, separate .* semicolons"),
+    (f"{HEADER}\n" + "".join(CSV.splitlines(True)[:0:-1]), "row 2: .*; expected times that rise"),
+    (re.sub(r"(?m)^1\.5\d,.*\n", "", CSV), "row 151: the time 1.6 follows 1.49; .* steps of 0.01:"),
+    (CSV + "3.995,0\n", "row 401: the time 3.995 follows 3.99; expected equal steps of 0.01"),
     (CSV.replace("0.05,", "0.05;"), r"line 7 is '0\.05;.*; expected numbers"),
     (HEADER, "0 samples; expected at least two"),
     ("", "expected a header such as"),
@@ -170,19 +183,87 @@ def test_column_is_named_or_numbered_and_a_start_in_ms_is_scaled(write):
         read_record(write(content, "a.csv"), "n")
 
 
-def test_plain_numbers_are_read_with_a_given_unit(write):
-    gal = 981.0 * MOTION
-    path = write("# a site\n" + "\n".join(map(repr, gal.tolist())), "motion.txt")
-    record = read_record(path, time_step=0.01, unit="gal")
-    np.testing.assert_allclose(record.acceleration, MOTION, rtol=1e-14)
-    with pytest.raises(ValueError, match=r"motion\.txt: 1 columns; expected one and `time_step`"):
-        read_record(path, unit="gal")
-    for mark in (" ", ","):
-        rows = (f"{t + 5.0:.2f}{mark}{a!r}" for t, a in zip(TIME, gal.tolist(), strict=True))
-        record = read_record(write("\n".join(rows), "motion.dat"), unit="cm/s2")
-        assert (record.start, record.time_step) == (5.0, pytest.approx(0.01))
-        np.testing.assert_allclose(record.acceleration, MOTION, rtol=1e-14)
-    assert read_record(write(COARSE, "motion.csv"), time_step=0.005).time_step == 0.005
+ONE = "".join(f"{981.0 * a!r}\n" for a in MOTION.tolist())
+TWO = "".join(f"{a:.6f} {a / 2:.6f}\n" for a in MOTION)
+TIMED = "".join(f"{t + 5.0:.2f} {a / 2:.6f} {a:.6f}\n" for t, a in BOTH)
+ACROSS = "".join(f"{a:.6f}" + " \n"[k % 8 == 7] for k, a in enumerate(MOTION[:-1]))
+GAL, IN_STEPS = {"unit": "gal", "time_step": 0.01}, {"unit": "g", "time_step": 0.01}
+FILLED = [
+    ("# a site\n" + ONE, GAL),
+    ("Station 7\n\n" + ONE.replace("e", "D"), GAL),
+    ("A title\nDT= .01 SEC\n" + TWO, {"unit": "g", "column": 1}),
+    (TWO, IN_STEPS | {"column": 1}),
+    (TIMED, {"unit": "g", "column": 3}),
+    (TIMED.replace(" ", ","), IN_STEPS | {"column": "3"}),
+    (TIMED.replace(" ", ";").replace(".", ","), {"unit": "g", "column": 3}),
+    (CSV.replace(HEADER, "time,acceleration"), {"unit": "g"}),
+    (CSV.replace("(g)", ""), {"unit": "g"}),
+    (CSV, IN_STEPS),
+    (COARSE.replace("(g)", ""), {"unit": "g", "time_step": 0.005}),
+    (AT2.replace(IN_G, "A site"), IN_STEPS),
+]
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(("text", "options"), FILLED)
+def test_unit_step_and_column_fill_what_the_file_does_not_state(write, text, options):
+    for name in (name_of(text), "g.csv")[: 1 if "NPTS" in text else 2]:
+        record = read_record(write(text, name), **options)
+        np.testing.assert_allclose(record.acceleration, MOTION, atol=6e-7)
+        assert record.time_step == pytest.approx(options.get("time_step", 0.01))
+        assert record.start == 5.0 * text.startswith("5")
+    assert record.name == ("motion" if "NPTS" in text else "g.csv")
+
+
+UNSTATED = [
+    (f"400\n{ONE}", GAL, "line 1 is '400', as if it were the number of values that follow"),
+    (f"400 0.01\n{ONE}", GAL, "line 1 is '400 0.01', as if it were the number of values"),
+    (f"400\n0.01\n{ONE}", GAL, "line 1 is '400', as if it were the number of values"),
+    (f"0.01\n{ONE}", GAL, "line 1 is '0.01', .* or the time step: remove it"),
+    (f"399\n{ACROSS}", IN_STEPS, "line 1 is '399', as if it were the number of values"),
+    (TWO, IN_STEPS, "2 columns, none of times; expected as `column` the number of one"),
+    (TWO, IN_STEPS | {"column": "N"}, "2 columns, none of times; expected as `column` the number"),
+    (TIMED, IN_STEPS, "3 columns, the first of times; expected as `column` the number of one"),
+    (TIMED, IN_STEPS | {"column": 1}, "3 columns, the first of times; expected as `column`"),
+    (TIMED, {"unit": "g", "time_step": 0.02, "column": 3}, "row 2: .* which is `time_step`"),
+    (ONE, {"unit": "gal"}, "no column has times; expected `time_step`, in s"),
+    (ONE.replace(".", ","), GAL, "line 1 is '0,0': are its commas decimal"),
+    (ONE.replace(".", ",").replace("0,0\n", "0\n", 1), GAL, "line 2 is .*: is its comma decimal"),
+    ("no numbers", GAL, "no line has numbers only"),
+    (f"UNITS: counts\n{ONE}", GAL, "header and `unit` state 'gal' and 'counts'; expected one of"),
+    (f"DT= .02 SEC\n{ONE}", GAL, "0.02 and 0.01 as DT and `time_step`"),
+    (AT2, {"time_step": 0.02}, "0.01 and 0.02 as DT and `time_step`; expected one value"),
+    (AT2, {"unit": "gal"}, "header and `unit` state 'gal' and 'G'"),
+    (AT2, {"column": 2}, "column is 2; expected none"),
+    (CSV, {"unit": "gal"}, "header and `unit` state 'gal' and 'g'"),
+    (CSV.replace("acceleration (g)", "velocity (m/s)"), {"unit": "g"}, "names no acceleration"),
+    (CSV, {"time_step": 0.02}, "row 2: .* expected steps of 0.02, which is `time_step`: leave"),
+    (re.sub("2.00,.*\n", "", CSV), {"time_step": 0.01}, "row 201: .*: is a sample missing"),
+    (f"{HEADER}\n" + "".join(CSV.splitlines(True)[:0:-1]), {"time_step": 0.01}, "times that rise"),
+]
+
+
+@pytest.mark.parametrize(("text", "options", "says"), UNSTATED)
+def test_numbers_that_nobody_explains_or_that_contradict_are_refused(write, text, options, says):
+    with pytest.raises(ValueError, match=rf"(?s){name_of(text)}: .*{says}"):
+        read_record(write(text, name_of(text)), **options)
+
+
+@pytest.mark.parametrize("text", [ACROSS, "A site\n" + ACROSS, ACROSS.rsplit("\n", 1)[0]])
+def test_line_that_a_message_gives_reads_samples_across_the_rows(write, text):
+    with pytest.raises(ValueError, match="the samples run across the lines") as error:
+        read_record(write(text, "rows.g3"), **IN_STEPS)
+    lines = "\n".join(str(error.value).splitlines()[1:]).replace("\nRecord", "\nrecord = Record")
+    exec(lines, names := {"Record": Record, "np": np})
+    record = names["record"]
+    size = record.acceleration.size
+    assert size == len(text.removeprefix("A site").split())
+    assert (record.time_step, *record.acceleration) == (0.01, *MOTION[:size].round(6))
+
+
+def test_table_that_is_cut_within_its_last_line_is_doubted(write):
+    with pytest.warns(UserWarning, match="the last line, '3.99,-0.0000', has no line end"):
+        read_record(write(CSV[:-3], "motion.csv"))
 
 
 def test_usual_names_of_vertical_components_are_known(tmp_path):
@@ -224,7 +305,7 @@ def test_national_format_is_refused_by_its_name_with_a_way_to_read_it(write, net
         with pytest.raises(ValueError, match=f"read a file of {network}:") as error:
             read_record(write(head, name))
         assert str(error.value).endswith(OTHER_READERS)
-    with pytest.raises(ValueError, match="could not convert"):
+    with pytest.raises(ValueError, match=r"the first lines are those of|no line has numbers only"):
         read_record(write(head, "x.txt"), time_step=0.01, unit="gal")
 
 
