@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
+from documents import shown
 from documents.check import DOCS, REFERENCE, SUMS, findings
 from replication.config import read_config
 from replication.sections import Paper
@@ -93,6 +94,7 @@ def main() -> None:
     for source, target in made.items():
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)
+    shown.write()
     sums = [
         path for folder in (DOCS, REFERENCE) for path in sorted(folder.rglob("*")) if path.is_file()
     ]
