@@ -141,8 +141,10 @@ def line(ground, begin, end):
 # The motion --------------------------------------------------------------------------------------
 
 # Rows of the lanes. The side 0 is rest; RATE is φ', PACE is p dt/dx, LEVEL the uplift acceleration
-# over w, HEIGHT the largest φ since the last impact, TURNED whether φ has turned back or rests.
-SIDE, PHI, RATE, X, ALPHA, ROOT, AMP, PACE, LEVEL, PEAK, HEIGHT, HITS, TURNED, LANE = range(14)
+# over w, HEIGHT the largest φ since the last impact, TURNED whether φ has turned back or rests. A
+# jump of the ground velocity adds KICK to φ' after each impact.
+SIDE, PHI, RATE, X, ALPHA, ROOT, AMP, PACE, LEVEL, PEAK, HEIGHT, HITS = range(12)
+TURNED, LANE, KICK = range(12, 15)
 QUIET = Ground(lambda x: 0.0 * x, np.zeros(1))
 
 
@@ -166,11 +168,13 @@ class Motion(NamedTuple):
     impacts: list  # x of the impacts of each lane
 
 
-def follow(bodies, amplitudes, ground, omega=1.0, linear=False, start=(0, 0), samples=(), leap=0):
+def follow(
+    bodies, amplitudes, ground, omega=1.0, linear=False, start=(0, 0), samples=(), leap=0, kick=0
+):
     """Carry bodies through a ground motion until each overturns or is safe, and on to the samples.
 
     Bodies, amplitudes and ω broadcast. `start` is θ and dθ/d(p t); the samples are x in order.
-    `leap` replaces `leapfrog`, the integration of a step.
+    `leap` replaces `leapfrog`, the integration of a step; for `kick` see the rows of the lanes.
 
     A body has overturned when it lies flat, φ = π/2; linearised, when no ground motion of this
     amplitude brings it back. It is safe when it turns back in free motion: impacts only take
@@ -178,12 +182,12 @@ def follow(bodies, amplitudes, ground, omega=1.0, linear=False, start=(0, 0), sa
     """
     p, alpha, root = (np.array([getattr(body, name) for body in bodies]) for name in Body._fields)
     p, alpha, root, amp, omega = np.broadcast_arrays(p, alpha, root, amplitudes, omega)
-    lanes, count = np.zeros((14, p.size)), p.size
+    lanes, count = np.zeros((15, p.size)), p.size
     lanes[[ALPHA, ROOT, AMP, PACE, LANE]] = alpha, root, amp, p / omega, np.arange(count)
     lanes[LEVEL] = alpha if linear else np.tan(alpha)
     lanes[[PHI, HEIGHT, PEAK]] = abs(start[0])
     lanes[SIDE] = np.sign(start[0] or start[1])
-    lanes[RATE] = lanes[SIDE] * start[1]
+    lanes[RATE], lanes[KICK] = lanes[SIDE] * start[1], kick
     strongest, samples = np.abs(ground.at(ground.corners)).max(), np.asarray(samples, float)
     flat = np.maximum(PI / 2, alpha + linear * np.abs(amp) * strongest)
     ends = np.zeros(count, bool), np.full(count, math.nan), np.zeros(count, int)
@@ -380,7 +384,7 @@ def impact(lanes, dx, drive):
     for lane, x in lanes[[LANE, X]][:, counted].T:
         drive.impacts[int(lane)].append(x)
     lanes[SIDE] *= -1
-    lanes[[PHI, HEIGHT]], lanes[RATE] = 0, lanes[ROOT] * np.maximum(-rate, 0)
+    lanes[[PHI, HEIGHT]], lanes[RATE] = 0, lanes[ROOT] * np.maximum(-rate, 0) + lanes[KICK]
     rests = lanes[RATE] ** 2 <= -2 * push(lanes, 0.0, lanes[X], drive) * REST * lanes[ALPHA]
     lanes[SIDE, rests] = lanes[RATE, rests] = 0
     lanes[TURNED, rests] = 1
@@ -685,6 +689,51 @@ def cycles():
     compare_readme("falls", [max(numbers)])
 
 
+def guaranteed(body, n=INF):
+    """Return the ground velocity V_n that overturns nothing before impact n, or V*, m/s."""
+    total = 1 / (1 - body.root) if n == INF else sum(body.root**k for k in range(n))
+    return G / body.p * math.sin(body.alpha / 2) / math.cos(body.alpha) / total
+
+
+def guarantee():
+    names = [*(f"velocity_{n}" for n in range(1, 6)), "velocity"]
+    rows, one = table("guarantee"), {}
+    for place, at in (("trilith", TRILITH), ("temple", TEMPLE), ("tall", (1.0, 6.0))):
+        some = [row for row in rows if row["structure"] == place]
+        bodies = [MAKE[row["support"]](*at, row["mass_ratio"]) for row in some]
+        numbers = [guaranteed(body, n) for body in bodies for n in (1, 2, 3, 4, 5, INF)]
+        compare_all(f"{place}: V_1 to V_5, V*", [r[n] for r in some for n in names], numbers)
+        one |= {(place, row["support"], row["mass_ratio"]): row for row in some}
+    for gamma, (name, n) in product((0, 1, INF), (("_1", 1), ("_2", 2), ("", INF))):
+        row = one["temple", "frame", gamma]
+        number = guaranteed(frame(*TEMPLE, gamma), n)
+        compare(f"   6 m, γ = {gamma:g}: V{name or '*'}", row[f"velocity{name}"], number)
+    worst_motion("V_1 to V_3, 1e-4 above and below", (2, 9.46, 20, 36), (1, 2, 3), 1e-4, 80)
+
+
+def resonance():
+    worst_motion("1.01 and 0.99 of V*", (9.46, 20, 36), [INF], 1e-2, 600)
+
+
+def worst_motion(words, degrees, visits, off, end):
+    """Follow frames under the worst motion a little above and below V_n, up to a time p t.
+
+    The ground velocity jumps by 2 V after each impact, which adds 2 V p cos(α)/g to dφ/d(p t). The
+    body overturns on visit n beyond V_n and not below it; a visit is the motion between impacts.
+    """
+    cases = [*product(degrees, (0.0, 0.25, 1.0, 4.0, INF), visits, (1, -1))]
+    bodies = [point(gamma, degree, "", 1, 1)[0] for degree, gamma, *_ in cases]
+    p, alpha, _ = np.transpose(bodies)
+    limits = [guaranteed(body, case[2]) for body, case in zip(bodies, cases, strict=True)]
+    above = np.array([case[3] for case in cases])
+    kick = 2 * (1 + off * above) * limits * p / G * np.cos(alpha)
+    motion = follow(bodies, 0.0, QUIET, start=(0, kick), kick=kick, samples=[end])
+    fell = np.isnan(motion.rotation[:, 0])
+    pairs = zip(motion.impacts, cases, strict=True)
+    last = [case[2] in (1 + len(times), INF) for times, case in pairs]
+    compare_all(f"   the worst motion overturns, {words}", above > 0, fell & last)
+
+
 def median_velocity(velocities, shares):
     """Return the velocity that overturns half: of the likeliest Φ(a + b x + c x²), x = ln v."""
     x = np.log(velocities)
@@ -736,7 +785,8 @@ def example():
     compare_readme("example", numbers)
 
 
-PARTS = trust, parameters, trilith, allen, histories, vase, spectra, cycles, gains, example
+PARTS = trust, parameters, trilith, allen, histories, vase, spectra, cycles
+PARTS += guarantee, resonance, gains, example
 
 
 def main():

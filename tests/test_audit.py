@@ -13,7 +13,13 @@ import audit as solver
 
 ROOT = Path(__file__).resolve().parents[1]
 AUDIT = ROOT / "src" / "audit.py"
-CHEAP = ("trust", "parameters", "trilith", "gains")  # `make audit` has all, beside lint
+CHEAP = (
+    "trust",
+    "parameters",
+    "trilith",
+    "guarantee",
+    "gains",
+)  # `make audit` has all, beside lint
 
 ABSTRACT = {  # what the abstract computes, and the line of the audit
     "size": "README: size",
@@ -90,6 +96,8 @@ def test_a_changed_number_is_named(folder, path, old, new, part, named):
             "cl",
         ),
         ("np.sin(lean) - a * np.cos", "np.sin(lean) + a * np.cos", "histories", "exact"),
+        ("root + 3 * gamma", "root - 3 * gamma", "guarantee", "temple: V_1 to V_5, V*"),
+        (" = 0, lanes[ROOT] * np", " = 0, -lanes[ROOT] * np", "guarantee", "worst motion"),
     ],
 )
 def test_a_turned_sign_is_named(folder, old, new, part, named):
