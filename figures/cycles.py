@@ -13,7 +13,7 @@ RANGE = 1.4, 2.6  # of a/(g tan α)
 
 def lines(axis, table, colours):
     """Draw the minimum of each γ over ω, and a ring where it is below that of the next lighter."""
-    lowest = table.pivot_table(index="frequency_ratio", columns="mass_ratio", values="minimum")
+    lowest = table.pivot_table(index="frequency_ratio", columns="mass_ratio", values="lowest_found")
     wide = table.pivot_table(index="frequency_ratio", columns="mass_ratio", values="wide_minimum")
     shown = lowest.where(lowest < RANGE[1])
     for mass_ratio, colour in colours.items():
@@ -39,7 +39,7 @@ def bars(axis, table, colours, ratio):
             note(axis, f"{low:.3f}", (place, low - 0.02), va="top", **at)
         else:
             note(axis, f"{low:.2f}\n" + r"$\uparrow$", (place, 2.51), linespacing=1.3, **at)
-        before = rows.minimum[mass_ratio]
+        before = rows.lowest_found[mass_ratio]
     names = [r"$\infty$" if np.isinf(one) else f"{one:g}" for one in colours]
     axis.set_xticks(range(len(names)), names)
     axis.set(xlabel=r"Mass ratio, $\gamma$ (–)", xlim=(-0.6, len(names) - 0.4))
@@ -50,7 +50,7 @@ def farthest(table, pairs):
     """Return the row of the heavier structure that falls farthest below the lighter of a pair."""
     of = table.set_index(["slenderness_deg", "frequency_ratio", "mass_ratio"])
     ratios = [
-        of.wide_minimum.xs(heavier, level=2) / of.minimum.xs(lighter, level=2)
+        of.wide_minimum.xs(heavier, level=2) / of.lowest_found.xs(lighter, level=2)
         for lighter, heavier in pairs
     ]
     return min(ratios, key=min).idxmin()

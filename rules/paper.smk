@@ -176,6 +176,8 @@ rule spectra:
         histories="results/tables/spectra_histories.csv",
         collapse="results/tables/spectra_collapse.csv",
         cycles="results/tables/spectra_cycles.csv",
+        falls="results/tables/spectra_falls.csv",
+        two_pulses="results/tables/spectra_two_pulses.csv",
         findings="results/findings/spectra.json",
     log:
         "results/logs/spectra.log",

@@ -675,7 +675,7 @@ def cycles():
     for place, line in rows.items():
         alone, *frames = sorted(line)
         for pair in (*pairwise(frames), *product([alone], frames)):
-            ends = line[pair[0]]["minimum"], line[pair[1]]["wide_minimum"]
+            ends = line[pair[0]]["lowest_found"], line[pair[1]]["wide_minimum"]
             if ends[1] < ends[0]:
                 falls.append((1 - ends[1] / ends[0], pair, place, ends))
     largest, numbers = {(fall[2][0], fall[1][0] == 0): fall for fall in sorted(falls)}, []

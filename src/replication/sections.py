@@ -38,6 +38,7 @@ Fraction = Annotated[float, Field(gt=0, le=1, strict=True)]
 Tolerance = Annotated[float, Field(gt=0, le=0.01, strict=True)]
 Duration = Annotated[float, Field(gt=0, le=1000, strict=True)]  # s
 Count = Annotated[int, Field(ge=1, le=10_000, strict=True)]
+Sign = Literal[1, -1]
 Seed = Annotated[int, Field(ge=0, strict=True)]
 Degrees = Annotated[float, Field(ge=1, le=60, strict=True)]  # at least 1: no radians
 StructureName = Annotated[str, AfterValidator(_structure)]
@@ -193,7 +194,13 @@ Paper = section(
         finer=section("resolution below"),
         near=section("resolution share"),
         collapse=section("slow covered"),
-        cycles=section("frequency_ratios highest resolution wide", numbers=Items[Count]),
+        cycles=section("frequency_ratios highest wide draws change seed", numbers=Items[Count]),
+        two_pulses=section(
+            "samples",
+            cases=Items[
+                section("slenderness frequency_ratio mass_ratios", pause=Positive, sign=Sign)
+            ],
+        ),
         sample=section("points seed"),
     ),
     vase=section(
@@ -242,6 +249,7 @@ Paper = section(
         "structure shapes frequency_ratios amplitudes samples bays depth sufficient check_samples",
         mass_ratios=Rising[Positive],
     ),
+    contacts=section("cap sufficient seed", cells=Count),
     designers=section("structure mass_ratios velocities"),
     engine=section(
         caps=dict[StructureName, CapBeam],

@@ -263,7 +263,8 @@ def histories(band: Band) -> pd.DataFrame:
 def compute(shards: list[pd.DataFrame], settings: dict, tightened: float) -> dict[str, Any]:
     """Return the spectra of the frames, the shares of their maps, and one pair of histories.
 
-    Beside them the collapse over ω/p̂, and the minima under a sine of several cycles.
+    Beside them the collapse over ω/p̂, the minima under a sine of several cycles with their falls,
+    and those under two pulses.
     """
     table, last = pd.concat(shards), settings["amplitudes"]["highest"]
     table = looked_again(table, settings)
@@ -271,12 +272,15 @@ def compute(shards: list[pd.DataFrame], settings: dict, tightened: float) -> dic
     spectra = Spectra(table, last)
     bands = spectra.bands([*combinations(frames(spectra.gammas), 2)])
     check_sample(spectra, bands, settings["sample"], tightened)
+    several = cycles.minima(settings)
     return {
         "spectra": table[table.change == FRAME].drop(columns="change"),
         "areas": areas_of(spectra),
         "histories": histories(max(bands, key=lambda band: band.width)),
         "collapse": collapse_of(spectra),
-        "cycles": cycles.minima(settings),
+        "cycles": several,
+        "falls": cycles.falls(several, settings),
+        "two_pulses": cycles.two_pulses(settings),
     }
 
 
@@ -334,6 +338,7 @@ def findings(
     spectra_areas: pd.DataFrame,
     spectra_collapse: pd.DataFrame,
     spectra_cycles: pd.DataFrame,
+    spectra_falls: pd.DataFrame,
     settings: dict,
 ) -> dict[str, Any]:
     """Return the rankings with their exceptions, and the shares of the maps."""
@@ -353,7 +358,7 @@ def findings(
     heaviest = alone[alone.mass_ratio == whole.gammas[-1]]
     frame = heaviest[heaviest.change == FRAME]
     prevented, caused = (mean(frame, name) for name in ("prevented", "caused"))
-    several = cycles.finding(spectra_cycles, settings)
+    several = cycles.finding(spectra_cycles, spectra_falls, settings)
     rises = all(ratio > 1.0 for ratio, *_ in neighbours)
     found = several | apart(spectra_collapse, **settings["collapse"])
     found |= {

@@ -13,8 +13,9 @@ from documents import animation
 from documents.check import REFERENCE
 from replication.step import findings_text
 from steps import proven, spectra, uplift, vase
-from steps.shared import balls, cycles, spectrum
+from steps.shared import balls, cycles, falls, spectrum
 from steps.shared.histories import history
+from steps.shared.lobes import record_of, sine
 from steps.shared.spectrum import FRAME, KEYS, line, solve
 from tests.cases import COLUMN, CONFIG, ROOT, SIZES, as_written, broken
 from tests.cases import FRAME as BENT
@@ -34,6 +35,10 @@ SPECTRA = CONFIG["spectra"] | {
     "mass_ratios": [0.0, 1.0, math.inf],
     "frequency_ratios": grid(1.25, 4.25, 13),
     "cycles": CONFIG["spectra"]["cycles"] | {"numbers": [3], "frequency_ratios": grid(4.0, 5.0, 2)},
+    "two_pulses": {
+        "samples": 100,
+        "cases": [CONFIG["spectra"]["two_pulses"]["cases"][0] | {"mass_ratios": [0.0, 0.1]}],
+    },
     "sample": {"points": 6, "seed": 1},
 }
 RICKER = {"shapes": ["ricker-symmetric"]}
@@ -112,7 +117,7 @@ KNOWN |= {"heavier_or_larger_is_more_stable"}
 
 
 def test_findings_of_spectra(tables):
-    rest = {"spectra_collapse": tables["collapse"], "spectra_cycles": tables["cycles"]}
+    rest = {f"spectra_{name}": tables[name] for name in ("collapse", "cycles", "falls")}
     rest["settings"] = SPECTRA
     found = spectra.findings(tables["spectra"], tables["areas"], **rest)
     assert broken(found) == KNOWN
@@ -144,8 +149,7 @@ def test_minimum_narrower_than_the_resolution_is_sought_below_the_first(share, e
 
 
 def several(mass_ratios, ratio):
-    cycles_of = {"resolution": 0.02, "frequency_ratios": grid(ratio, ratio + 1.0, 1)}
-    cycles_of = SPECTRA["cycles"] | cycles_of
+    cycles_of = SPECTRA["cycles"] | {"frequency_ratios": grid(ratio, ratio + 1.0, 1), "draws": 2}
     return {"slendernesses": [9.462322], "mass_ratios": mass_ratios, "cycles": cycles_of}
 
 
@@ -162,23 +166,80 @@ def test_minimum_falls_under_three_cycles_of_a_sine(ratio, known):
     gammas = sorted(known)
     settings = several(gammas, ratio)
     table = as_written({"table": cycles.minima(settings)})["table"]
-    assert table.minimum.to_list() == pytest.approx([known[one] for one in gammas], abs=5e-4)
-    found = cycles.finding(table, settings)
+    assert table.lowest_found.to_list() == pytest.approx([known[one] for one in gammas], abs=5e-4)
+    fell = as_written({"fell": cycles.falls(table, settings)})["fell"]
+    found = cycles.finding(table, fell, settings)
     assert broken(found) == {"cycles_rise_with_mass"}
     assert findings_text(found, cycles.finding)  # which an infinite γ stops
     light, heavy = known[gammas[1]], known[gammas[2]]
     assert found["cycles_rise_with_mass"]["fall_3"] == pytest.approx(1.0 - heavy / light, abs=3e-4)
-    narrow = table.assign(wide_minimum=math.inf)
-    assert not broken(cycles.finding(narrow, settings))
+    assert 0.0 <= found["cycles_rise_with_mass"]["stays_3"] <= 1.0
+    narrow = cycles.falls(table.assign(wide_minimum=math.inf, wide_upper=math.inf), settings)
+    assert not broken(cycles.finding(table, narrow, settings))
 
 
 def test_frame_falls_below_its_column_under_three_cycles_of_a_sine():
     settings = several([0.0, 0.25, math.inf], 4.4375)
     table = cycles.minima(settings)
-    assert broken(cycles.finding(table, settings)) == {"cycles_frame_is_above_its_column"}
-    wrong = cycles.falls(table, [(0.0, 0.25)]).assign(minimum=2.1)
-    with pytest.raises(SystemExit, match=r"at 2\.1"):
-        cycles.check_falls(wrong)
+    fell = cycles.falls(table, settings)
+    found = cycles.finding(table, fell, settings)
+    assert broken(found) == {"cycles_frame_is_above_its_column"}
+    (row,) = [row for _, row in cycles.largest(fell, [(0.0, 0.25)]).iterrows()]
+    with pytest.raises(SystemExit, match=r"heavier at 2\.1"):
+        cycles.check_fall(row.replace(row.heavier_from, 2.1))
+
+
+@pytest.mark.parametrize(
+    ("gamma", "ratio", "narrow", "wide"),
+    [(2.0, 3.75, (1.9281, 1.9302), 2.4773), (0.25, 4.0625, (1.8747, 1.8784), 2.4662)],
+)
+def test_interval_narrower_than_the_first_search_is_found(gamma, ratio, narrow, wide):
+    """Of a code on a grid four times as fine."""
+    block, pulse = cycles.one_line(5, 9.462322, ratio, gamma)
+    (lowest,) = falls.lowest_of([block], [pulse], 3.0, 0.02)
+    assert lowest.wide_lower == pytest.approx(wide, abs=1e-3)
+    lowest = falls.searched_finely(block, pulse, lowest, 3.0)
+    assert (lowest.lower, lowest.upper) == pytest.approx(narrow, abs=1e-4)
+
+
+def test_three_counts_of_a_fall_differ_where_an_interval_is_narrow():
+    lighter = falls.Lowest(2.22, 2.237, 3.06, 3.3, falls.GRID)
+    heavier = falls.Lowest(1.9, 1.901, 2.155, 2.183, falls.GRID)
+    counts = falls.fall(lighter, heavier)
+    assert counts == pytest.approx((1 - 2.155 / 2.22, 1 - 1.9 / 2.22, 1 - 2.155 / 3.06))
+    none = falls.Lowest(*4 * [math.inf], falls.GRID)
+    assert falls.fall(lighter, none).strict == -math.inf
+    assert math.isnan(falls.fall(none, none).strict)
+
+
+def test_motion_of_lobes_is_the_pulse_of_as_many_cycles():
+    block, pulse = cycles.one_line(3, 9.462322, 4.0, 1.0)
+    lobes = sine(6, math.pi / pulse.angular_frequency, pulse.amplitude)
+    record = record_of(lobes, pulse.duration / 3000)
+    np.testing.assert_allclose(record.acceleration, pulse.excitation(record.time), atol=1e-12)
+    assert falls.lowest_of([block], [record], 2.5, 0.02)[0].lower == pytest.approx(2.1610, abs=1e-3)
+    second = [lobes[0], lobes[1]._replace(pause=0.5, sign=1.0)]
+    step = 1e-3
+    paused = record_of(second, step)
+    still = int(lobes[0].length / step) + 1
+    assert not paused.acceleration[still : still + 490].any()
+    assert paused.acceleration.min() >= 0.0
+
+
+def test_share_of_draws_that_stay_falls_is_that_of_a_known_motion():
+    """Two unequal pulses far beyond each other's thresholds: no draw changes the order."""
+    light, heavy = (cycles.one_line(3, 9.462322, 4.0, gamma)[0] for gamma in (0.5, 1.0))
+    _, pulse = cycles.one_line(3, 9.462322, 4.0, 0.5)
+    lobes = sine(6, math.pi / pulse.angular_frequency, pulse.amplitude)
+    ends = 4.5, 0.02, 4
+    assert falls.share_that_stays(lobes, light, heavy, *ends, 1e-6, 1) == 1.0
+    assert falls.share_that_stays(lobes, heavy, light, *ends, 1e-6, 1) == 0.0
+
+
+def test_minima_of_two_pulses_are_those_of_another_code():
+    """By a Runge–Kutta code on grids of 0.01 and 0.002: the first amplitudes that overturn."""
+    table = cycles.two_pulses(SPECTRA)
+    assert table.lowest_found.to_list() == pytest.approx([4.08, 2.048], abs=0.01)
 
 
 def test_collapse_compares_the_frame_with_a_column_of_its_restitution(shards):

@@ -1,8 +1,6 @@
-"""Minima under a sine of several cycles, whose equal lobes can make a heavier frame weaker.
+"""Minima under several equal lobes, which can make a heavier frame weaker: see `falls`.
 
-Under several lobes, many intervals of overturning amplitudes are narrower than any search resolves.
-An exception counts if a whole interval of a `wide` width that overturns the heavier structure lies
-below every amplitude that overturns the lighter one, by the search.
+The lobes are those of a sine of several cycles, or two one-sine pulses with a pause.
 """
 
 import math
@@ -10,132 +8,202 @@ from collections.abc import Mapping, Sequence
 from itertools import combinations, pairwise, product
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from replication.step import check, grid, truth
 from steps.shared import plain
+from steps.shared.cases import column_of
+from steps.shared.falls import Fall, Lowest, fall, lowest_of, searched_finely, share_that_stays
+from steps.shared.lobes import record_of, sine
 from steps.shared.spectrum import FRAME, line
-from topheavy import judge
-from topheavy.outcomes.search import intervals_of_many
+from topheavy import Record, RockingFrame, judge
 
 SHAPE = "one-sine"
 PLACE = ["cycles", "slenderness_deg", "frequency_ratio"]
+FOUND = ["lowest_found", "lowest_upper", "wide_minimum", "wide_upper", "searched_step"]
 TOGETHER = 100  # lines that are searched in the same calls of the kernel
+PAIR = "lighter", "heavier"
 ASIDE = 1e-4  # of an end of an interval: where the plain solver judges
+CLOSE = 0.005  # g tan α, of an end of an interval under two pulses: likewise
 
 
 def minima(settings: Mapping[str, Any]) -> pd.DataFrame:
-    """Return for each structure and pulse the lowest amplitude, over g tan α, that overturns.
+    """Return for each structure and pulse the lowest amplitudes, over g tan α, that overturn.
 
-    `minimum` is that of all intervals that the search finds, `wide_minimum` and `wide_upper` are
-    the ends of the lowest wide one; they are infinite where there is none. A search in steps as
-    wide finds every wide interval. Where the minimum falls by it, all structures are searched in
-    narrower steps.
+    `lowest_found` and `lowest_upper` are the ends of the lowest interval that the search finds,
+    `wide_minimum` and `wide_upper` those of the lowest wide one; they are infinite where there is
+    none. A search in steps as wide finds every wide interval. Where a minimum falls by one of the
+    counts of `falls`, both structures are searched below it by its grid, as `searched_step` says.
     """
-    spec = settings["cycles"]
+    spec, gammas = settings["cycles"], settings["mass_ratios"]
     ratios = map(float, grid(spec["frequency_ratios"]))
     places = [*product(spec["numbers"], settings["slendernesses"], ratios)]
-    pairs = [*combinations(settings["mass_ratios"], 2)]
-    table = searched(places, settings, spec["wide"])
-    fell = falls(table, pairs)[PLACE].drop_duplicates()
-    finely = searched([*fell.itertuples(index=False, name=None)], settings, spec["resolution"])
-    keys = [*PLACE, "mass_ratio"]
-    table = pd.concat([table, finely.astype(table.dtypes)])
-    table = table.drop_duplicates(keys, keep="last").sort_values(keys)
-    check_falls(falls(table, pairs))
-    return table
-
-
-def searched(places: Sequence[tuple], settings: Mapping[str, Any], step: float) -> pd.DataFrame:
-    """Return a row for each structure at each place, searched in steps of one width."""
-    spec, rows = settings["cycles"], []
-    labels = [(*place, gamma) for place in places for gamma in settings["mass_ratios"]]
+    labels = [(*place, gamma) for place in places for gamma in gammas]
+    rows: dict[tuple, Lowest] = {}
     for begin in range(0, len(labels), TOGETHER):
         some = labels[begin : begin + TOGETHER]
         blocks, pulses = zip(*(one_line(*at) for at in some), strict=True)
-        every = intervals_of_many(
-            blocks, pulses, (1.0, spec["highest"]), resolution=step, most_impacts=0
-        )
-        for at, intervals in zip(some, every, strict=True):
-            ends = [(one.lower[1], one.upper[0] if one.upper else math.inf) for one in intervals]
-            wide = [(low, high) for low, high in ends if high - low >= spec["wide"]]
-            lowest = min((low for low, _ in ends), default=math.inf)
-            rows.append((*at, lowest, *(wide[0] if wide else (math.inf, math.inf))))
-        print(f"{begin + len(some)} of {len(labels)} lines of several cycles", flush=True)
-    names = [*PLACE, "mass_ratio", "minimum", "wide_minimum", "wide_upper"]
-    return pd.DataFrame(rows, columns=names)
+        lowest = lowest_of(blocks, pulses, spec["highest"], spec["wide"])
+        rows |= zip(some, lowest, strict=True)
+        print(f"{len(rows)} of {len(labels)} lines of several cycles", flush=True)
+    pairs = [((*place, a), (*place, b)) for place in places for a, b in combinations(gammas, 2)]
+    while True:
+        fell = {at for pair in pairs if max(fall(*(rows[at] for at in pair))) > 0.0 for at in pair}
+        coarse = [at for at in labels if at in fell and rows[at].searched == spec["wide"]]
+        if not coarse:
+            break
+        for at in coarse:
+            rows[at] = searched_finely(*one_line(*at), rows[at], spec["highest"])
+        print(f"{len(coarse)} lines searched finely", flush=True)
+    return pd.DataFrame(
+        [(*at, *lowest) for at, lowest in rows.items()], columns=[*PLACE, "mass_ratio", *FOUND]
+    )
 
 
 def one_line(cycles: int, slenderness: float, ratio: float, gamma: float) -> tuple:
     """Return the block and its pulse with the amplitude g tan α."""
-    _, block, pulse = line(FRAME, gamma, slenderness, SHAPE, ratio, cycles)
+    _, block, pulse = line(FRAME, gamma, slenderness, SHAPE, ratio, int(cycles))
     return block, pulse
 
 
-def falls(table: pd.DataFrame, pairs: list[tuple[float, float]]) -> pd.DataFrame:
-    """Return a row for each pair and pulse whose heavier structure has the lower minimum."""
-    by_mass = table.pivot_table(
-        index=PLACE, columns="mass_ratio", values=["minimum", "wide_minimum", "wide_upper"]
-    )
-    found = []
-    for light, heavy in pairs:
-        lower = by_mass["wide_minimum"][heavy] / by_mass["minimum"][light] - 1.0
-        part = pd.DataFrame({"lighter": light, "heavier": heavy, "fall": -lower})
-        part["minimum"], part["of_lighter"] = (
-            by_mass["wide_minimum"][heavy],
-            by_mass["minimum"][light],
-        )
-        part["upper"] = by_mass["wide_upper"][heavy]
-        found.append(part[part.fall > 0.0])
-    return pd.concat(found).reset_index()
+def falls(table: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame:
+    """Return the falls of each pair and pulse by the three counts of `falls`, where one has one.
+
+    The widths are those of the two intervals that the strict count compares. `stays` is the share
+    of draws in which a quoted fall remains a strict one.
+    """
+    spec, rows = settings["cycles"], []
+    for place, lines in table.groupby(PLACE):
+        found = {row.mass_ratio: Lowest(*row[FOUND]) for _, row in lines.iterrows()}
+        for light, heavy in combinations(sorted(found), 2):
+            lighter, heavier = found[light], found[heavy]
+            counts = fall(lighter, heavier)
+            if max(counts) > 0.0:
+                upper = min(heavier.wide_upper, spec["highest"])
+                rows.append(
+                    dict(zip(PLACE, place, strict=True))
+                    | {"lighter": light, "lighter_from": lighter.lower}
+                    | {"lighter_width": lighter.upper - lighter.lower}
+                    | {"heavier": heavy, "heavier_from": heavier.wide_lower}
+                    | {"heavier_width": upper - heavier.wide_lower}
+                    | counts._asdict()
+                )
+    names = ["lighter", "lighter_from", "lighter_width", "heavier", "heavier_from", "heavier_width"]
+    columns = [*PLACE, *names, *Fall._fields]
+    made = pd.DataFrame(rows, columns=columns).assign(stays=math.nan)
+    for pairs in kinds(settings["mass_ratios"]).values():
+        for _, row in largest(made, pairs).iterrows():
+            check_fall(row)
+            made.loc[row.name, "stays"] = stays(row, spec)
+    return made
 
 
-def check_falls(exceptions: pd.DataFrame) -> None:
-    """Check the largest exceptions by the plain solver, at both ends of each minimum."""
-    for _, row in (
-        exceptions.sort_values("fall").groupby(["cycles", "lighter", "heavier"]).tail(1).iterrows()
-    ):
-        for gamma, factor, expected in (
-            (row.heavier, row.minimum * (1.0 + ASIDE), True),
-            (row.heavier, min(row.upper, row.of_lighter) * (1.0 - ASIDE), True),
-            (row.lighter, row.minimum * (1.0 + ASIDE), False),
-            (row.lighter, row.of_lighter * (1.0 - ASIDE), False),
-        ):
-            block, pulse = one_line(
-                int(row.cycles), row.slenderness_deg, row.frequency_ratio, gamma
-            )
-            both = {one(block, pulse.scaled(factor)).overturned for one in (judge, plain.judge)}
-            check(both == {expected}, f"{dict(row)}: γ = {gamma:g} at {factor:.9g}: {both}")
-
-
-def finding(table: pd.DataFrame, settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Return whether the minimum never falls between frames, and never below the column's."""
-    gammas = sorted(settings["mass_ratios"])
-    column, *frames = gammas
+def kinds(gammas: Sequence[float]) -> dict[str, list[tuple[float, float]]]:
+    """Return the pairs of each finding: neighbouring frames, and the column and each frame."""
+    column, *frames = sorted(gammas)
     return {
-        name: truth(exceptions.empty, comparisons=compared(table, pairs), **largest(exceptions))
-        for name, pairs in (
-            ("cycles_rise_with_mass", [*pairwise(frames)]),
-            ("cycles_frame_is_above_its_column", [(column, gamma) for gamma in frames]),
-        )
-        for exceptions in [falls(table, pairs)]
+        "cycles_rise_with_mass": [*pairwise(frames)],
+        "cycles_frame_is_above_its_column": [(column, gamma) for gamma in frames],
     }
 
 
-def compared(table: pd.DataFrame, pairs: list[tuple[float, float]]) -> int:
+def strict_falls(made: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> pd.DataFrame:
+    """Return the rows of the pairs that fall by the strict count."""
+    return of_pairs(made[made.strict > 0.0], pairs)
+
+
+def of_pairs(made: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> pd.DataFrame:
+    """Return the rows of the pairs."""
+    is_one = [pair in pairs for pair in zip(made.lighter, made.heavier, strict=True)]
+    return made[np.array(is_one, dtype=bool)]
+
+
+def largest(made: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> pd.DataFrame:
+    """Return the largest strict fall of the pairs for each number of cycles: those are quoted."""
+    rows = strict_falls(made, pairs)
+    return rows.loc[rows.groupby("cycles").strict.idxmax()]
+
+
+def stays(row: pd.Series, spec: Mapping[str, Any]) -> float:
+    """Return the share of draws in which a fall remains a strict one."""
+    blocks, pulses = zip(*(one_line(*row[PLACE], row[name]) for name in PAIR), strict=True)
+    length = math.pi / pulses[0].angular_frequency
+    lobes = sine(2 * pulses[0].cycles, length, pulses[0].amplitude)
+    terms = (spec[name] for name in ("highest", "wide", "draws", "change", "seed"))
+    return share_that_stays(lobes, *blocks, *terms)
+
+
+def check_fall(row: pd.Series) -> None:
+    """Check a fall by both solvers, at both ends of both intervals."""
+    for name, factor, expected in (
+        ("heavier", row.heavier_from * (1.0 + ASIDE), True),
+        ("heavier", (row.heavier_from + row.heavier_width) * (1.0 - ASIDE), True),
+        ("lighter", row.heavier_from * (1.0 + ASIDE), False),
+        ("lighter", row.lighter_from * (1.0 - ASIDE), False),
+    ):
+        block, pulse = one_line(*row[PLACE], row[name])
+        both = {solve(block, pulse.scaled(factor)).overturned for solve in (judge, plain.judge)}
+        check(both == {expected}, f"{dict(row)}: the {name} at {factor:.9g}: {both}")
+
+
+def finding(table: pd.DataFrame, made: pd.DataFrame, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return whether the minimum never falls between frames, and never below the column's.
+
+    `exceptions_by_wide` and `exceptions_by_any_width` are the numbers by the two looser counts.
+    """
+    found = {}
+    for name, pairs in kinds(settings["mass_ratios"]).items():
+        rows, looser = strict_falls(made, pairs), of_pairs(made, pairs)
+        evidence = {"comparisons": compared(table, pairs), "exceptions": len(rows)}
+        evidence |= {f"exceptions_{by}": int((looser[by] > 0.0).sum()) for by in Fall._fields[1:]}
+        evidence |= {f"largest_{by}": looser[by].max() for by in Fall._fields[1:] if len(looser)}
+        evidence["slendernesses"] = rows.slenderness_deg.nunique()
+        for _, row in largest(made, pairs).iterrows():
+            number = int(row.cycles)
+            shown = {"fall": row.strict, "frequency_ratio": row.frequency_ratio, "stays": row.stays}
+            shown |= {"width": row.heavier_width, "width_of_lighter": row.lighter_width}
+            shown |= {"from": row.heavier_from, "from_of_lighter": row.lighter_from}
+            shown |= {key: f"{row[key]:g}" for key in PAIR}
+            evidence |= {f"{key}_{number}": content for key, content in shown.items()}
+        found[name] = truth(rows.empty, **evidence)
+    return found
+
+
+def compared(table: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> int:
     """Return in how many comparisons one of the two overturns."""
-    known = table.pivot_table(index=PLACE, columns="mass_ratio", values="minimum") < math.inf
+    known = table.pivot_table(index=PLACE, columns="mass_ratio", values="lowest_found") < math.inf
     return sum(int((known[light] | known[heavy]).sum()) for light, heavy in pairs)
 
 
-def largest(exceptions: pd.DataFrame) -> dict[str, Any]:
-    """Return the number of exceptions, their slendernesses, and the largest for each number."""
-    more: dict[str, Any] = {
-        "exceptions": len(exceptions),
-        "slendernesses": exceptions.slenderness_deg.nunique(),
-    }
-    for number, rows in exceptions.groupby("cycles"):
-        row = rows.loc[rows.fall.idxmax()]
-        more |= {f"{name}_{number}": row[name] for name in ("fall", "frequency_ratio", "minimum")}
-        more |= {f"{name}_{number}": f"{row[name]:g}" for name in ("lighter", "heavier")}
-    return more
+def two_pulses(settings: Mapping[str, Any]) -> pd.DataFrame:
+    """Return the lowest amplitudes, over g tan α, of two equal one-sine pulses with a pause.
+
+    The columns are those of `minima`; all structures are searched by the grid of `falls`. The plain
+    solver judges on both sides of each minimum of a wide interval.
+    """
+    highest, wide = settings["cycles"]["highest"], settings["cycles"]["wide"]
+    rows, sides = [], []
+    for case in settings["two_pulses"]["cases"]:
+        column, motion = column_of(case["slenderness"]), pair_of_pulses(case, settings)
+        labels = {"slenderness_deg": case["slenderness"]}
+        labels |= {name: case[name] for name in ("frequency_ratio", "pause", "sign")}
+        for gamma in case["mass_ratios"]:
+            block = RockingFrame(column, gamma).block()
+            (lowest,) = lowest_of([block], [motion], highest, wide)
+            lowest = searched_finely(block, motion, lowest, highest)
+            rows.append(labels | {"mass_ratio": gamma} | dict(zip(FOUND, lowest, strict=True)))
+            for side, expected in ((-CLOSE, False), (CLOSE, True)):
+                sides.append((block, motion, None, lowest.wide_lower + side, expected))
+    plain.check_sample(sides)
+    return pd.DataFrame(rows)
+
+
+def pair_of_pulses(case: Mapping[str, Any], settings: Mapping[str, Any]) -> Record:
+    """Return two equal one-sine pulses of g tan α; the pause is in their periods."""
+    column = column_of(case["slenderness"])
+    length = math.pi / (case["frequency_ratio"] * column.frequency_parameter)
+    first = sine(2, length, column.uplift_acceleration)
+    second = sine(2, length, column.uplift_acceleration, case["sign"])
+    second[0] = second[0]._replace(pause=2.0 * length * case["pause"])
+    return record_of([*first, *second], 2.0 * length / settings["two_pulses"]["samples"])

@@ -1,0 +1,133 @@
+"""Falls: a heavier structure overturns at a lower amplitude of a motion than a lighter one.
+
+Survival is not monotone in the amplitude, and the lowest interval that overturns can be narrower
+than any search resolves. So a fall is counted strictly: the heavier structure overturns on a
+`wide` interval of amplitudes, and the lighter one on none below it, of any width that a grid of
+`GRID` shows. Amplitudes are factors on a motion whose amplitude is g tan α, from 1, uplift, on.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from steps.shared.lobes import Lobe, drawn, record_of
+from topheavy import Pulse, Record, RockingBlock
+from topheavy.outcomes.search import intervals_of_many
+
+GRID = 1.0 / 2000.0
+"""Step of the amplitudes in the last search for a narrow interval, g tan α."""
+
+STEP = 0.05
+"""Time between the samples of lobes, over 1/p of the lighter structure."""
+
+Motions = Sequence[Pulse | Record]
+
+
+class Lowest(NamedTuple):
+    """The lowest interval of amplitudes that overturns, and the lowest wide one.
+
+    Infinite where the search finds none; `searched` is the step of its grid below the wide one.
+    """
+
+    lower: float
+    upper: float
+    wide_lower: float
+    wide_upper: float
+    searched: float
+
+
+class Fall(NamedTuple):
+    """By which share the lowest amplitude of the heavier structure is below that of the lighter.
+
+    Negative if it is above, NaN if neither overturns. `strict` is that of the module. By the other
+    two, intervals of any width, or only wide ones, count for both: they depend on the resolution.
+    """
+
+    strict: float
+    by_any_width: float
+    by_wide: float
+
+
+def lowest_of(
+    blocks: Sequence[RockingBlock], motions: Motions, highest: float, wide: float
+) -> list[Lowest]:
+    """Return the lowest intervals of each block under its motion; no wide interval is missed."""
+    every = intervals_of_many(blocks, motions, (1.0, highest), resolution=wide, most_impacts=0)
+    found = []
+    for intervals in every:
+        ends = [(one.lower[1], one.upper[0] if one.upper else math.inf) for one in intervals]
+        none = (math.inf, math.inf)
+        first_wide = next((pair for pair in ends if pair[1] - pair[0] >= wide), none)
+        found.append(Lowest(*(ends[0] if ends else none), *first_wide, wide))
+    return found
+
+
+def searched_finely(
+    block: RockingBlock, motion: Pulse | Record, lowest: Lowest, highest: float
+) -> Lowest:
+    """Return the lowest intervals after a search by `GRID` below those that are known."""
+    last = min(lowest.lower, highest)
+    lowest = lowest._replace(searched=GRID)
+    if last <= 1.0 + GRID:
+        return lowest
+    (intervals,) = intervals_of_many(
+        [block], [motion], (1.0, last), resolution=GRID, most_impacts=0
+    )
+    for interval in intervals:
+        if interval.upper and interval.upper[1] < last:
+            return lowest._replace(lower=interval.lower[1], upper=interval.upper[0])
+    return lowest
+
+
+def fall(lighter: Lowest, heavier: Lowest) -> Fall:
+    """Return the fall from a lighter structure to a heavier one by the three counts."""
+
+    def below(high: float, low: float) -> float:
+        return math.nan if low == high == math.inf else 1.0 - low / high
+
+    return Fall(
+        below(lighter.lower, heavier.wide_lower),
+        below(lighter.lower, heavier.lower),
+        below(lighter.wide_lower, heavier.wide_lower),
+    )
+
+
+def strict_fall(
+    lighter: RockingBlock,
+    heavier: RockingBlock,
+    motion: Pulse | Record,
+    highest: float,
+    wide: float,
+) -> float:
+    """Return the strict fall from a lighter block to a heavier one under a motion; 0 if none.
+
+    The fine search runs only where a coarse one leaves a fall: most motions cost the coarse one.
+    """
+    pair = lowest_of([lighter, heavier], [motion, motion], highest, wide)
+    if not fall(*pair).strict > 0.0:
+        return 0.0
+    return max(0.0, fall(searched_finely(lighter, motion, pair[0], highest), pair[1]).strict)
+
+
+def share_that_stays(
+    lobes: Sequence[Lobe],
+    lighter: RockingBlock,
+    heavier: RockingBlock,
+    highest: float,
+    wide: float,
+    draws: int,
+    change: float,
+    seed: int,
+) -> float:
+    """Return the share of draws in which a motion of lobes remains a strict fall.
+
+    In each draw the length and the amplitude of each lobe change by a share (standard deviation).
+    A fall that lives on the equality of its lobes remains in few draws.
+    """
+    random = np.random.default_rng(seed)
+    step = STEP / lighter.frequency_parameter
+    motions = [record_of(drawn(lobes, change, random), step) for _ in range(draws)]
+    falls = [strict_fall(lighter, heavier, motion, highest, wide) for motion in motions]
+    return sum(share > 0.0 for share in falls) / draws
