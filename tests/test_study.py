@@ -1,6 +1,7 @@
 """`make study` copies studies/bent, and the copy runs, here in the environment of the tests."""
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -41,6 +42,10 @@ def make_study(path, name, uv="/bin/true"):
     return run(ROOT, "make", "study", f"DIR={path}", f"NAME={name}", f"UV={uv}")
 
 
+def snakemake(folder, *words):
+    return run(folder, "python", "-m", "snakemake", "--cores", "1", *words)
+
+
 @pytest.fixture(scope="module")
 def bridge(tmp_path_factory):
     """A copy, with its results, in a folder whose name has a space."""
@@ -50,9 +55,32 @@ def bridge(tmp_path_factory):
     code, output = make_study(parent / "bridge", "bridge", uv)
     assert code == 0, output
     assert "Next: cd" in output
-    code, output = run(parent / "bridge", "python", "-m", "snakemake", "--cores", "1")
+    code, output = snakemake(parent / "bridge")
     assert code == 0, output
     return parent / "bridge"
+
+
+def test_an_old_result_answers_neither_for_another_record_nor_after_an_error(bridge, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(bridge, copy)
+    assert "Nothing to be done" in snakemake(copy)[1]
+    config = copy / "config.yaml"
+    text = config.read_text("utf-8")
+    os.utime(config, (0, 0))
+    assert "Nothing to be done" in snakemake(copy, "--dry-run")[1]
+    config.write_text(text.replace("scale: 1.3", "scale: 1.4"), "utf-8")
+    os.utime(config, (0, 0))
+    assert "triggered jobs" in snakemake(copy, "--dry-run")[1]
+    config.write_text(text.replace("width:", "widht:"), "utf-8")
+    for _ in range(2):  # the second time, the picture is gone and the old report is there
+        code, output = snakemake(copy)
+        assert code == 1
+        assert "unexpected keyword argument 'widht'" in output
+    config.write_text(text, "utf-8")
+    (copy / "el_centro_1940_NS.AT2").rename(copy / "another.AT2")
+    code, output = snakemake(copy)
+    assert code == 1
+    assert "reads el_centro_1940_NS.AT2, which is not there: put it there, or mend" in output
 
 
 def test_the_tests_of_the_copy_pass_and_a_wrong_number_fails_one(bridge):

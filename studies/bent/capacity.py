@@ -19,6 +19,11 @@ def outcomes(config):
 
 def numbers(factors, bent, column, scale):
     """Return the numbers of the text; None where too few factors overturn for a capacity."""
+    if not factors[0] <= scale <= factors[-1]:
+        raise SystemExit(
+            f"config.yaml: scale is {scale:g}, and factors are {factors[0]:g} to {factors[-1]:g}: "
+            "the study says nothing of other factors; extend start or stop of factors"
+        )
     windows = (0.05, 0.025, 0.1, 0.2)  # the text quotes the first, and the range over all
     both = [Capacity(factors, fell) for fell in (bent, column)]
     of_bent, of_column = np.array([[each.over(window) for window in windows] for each in both])

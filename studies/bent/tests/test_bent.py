@@ -2,6 +2,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pytest
 import yaml
 from capacity import numbers, outcomes
 
@@ -22,3 +23,9 @@ def test_the_text_quotes_the_numbers_of_the_table():
 def test_no_overturning_is_a_result():
     none = numbers(FACTORS, FACTORS < 0, FACTORS < 0, CONFIG["scale"])
     assert none == {"survives": True, "bent": None, "column": None, "gain": None}
+
+
+def test_a_factor_beyond_the_grid_has_no_answer():
+    for scale in (0.5 * FACTORS[0], 2 * FACTORS[-1]):
+        with pytest.raises(SystemExit, match="; extend start or stop of"):
+            numbers(FACTORS, FACTORS < 0, FACTORS < 0, scale)
