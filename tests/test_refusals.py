@@ -399,6 +399,15 @@ def test_search_is_refused_for_its_largest_factor_alone():
 # ---------------------------------------------------------------------------- what is asked
 
 FEW = {"levels": [0.1, 0.2], "resamples": 100}
+
+
+def marked(place):
+    """A record in which a number that stands for missing data takes the place of samples."""
+    samples = 981.0 * MOTION
+    samples[place] = -999.9
+    return th.Record(0.01, samples, unit="gal")
+
+
 NOISE = np.sin(0.06 * np.arange(1000))
 ASKED = {
     "time_step is 10 s.*is it in ms": lambda: th.Record(10.0, [0.0, 0.1]),
@@ -414,6 +423,10 @@ ASKED = {
     "no sample changes sign": lambda: th.Record(0.01, np.abs(MOTION)),
     "2.26 g, and few exceed 2 g: is it in m/s²": lambda: th.Record(0.01, 8.0 * MOTION),
     "and few exceed 5 g": lambda: th.Record(0.01, 1000.0 * NOISE, unit="m/s2"),
+    "is 0.0028.* g, and few .* are below 0.005 g": lambda: th.Record(0.01, 0.01 * MOTION),
+    "neighbours of the peak, sample 51 of 400, are below half": lambda: marked(50),
+    "neighbours of the peak, sample 400 of 400, are below half": lambda: marked(-1),
+    "neighbours of the peak, sample 1 of 400, are below half": lambda: marked(slice(2)),
     "or counts": lambda: th.Record(0.01, -12085 + 6000 * NOISE, unit="m/s2"),
     "half of the levels exceed 20 m/s.*are they in cm/s": lambda: fragile(levels=[10, 20, 30]),
     "exceed 200 g.*in gal or m/s": lambda: fragile(levels=[100, 200, 300], measure="PGA"),

@@ -5,6 +5,7 @@
 
 const LARGEST_FILE = 100e6; // bytes
 const LONGEST_STEP = 0.2; // s: a longer one is in ms
+const SMALLEST = 0.005; // g
 const LARGEST = { acceleration: 5, stated: 2, velocity: 5 }; // g, g that the file calls g, and m/s
 const DECIMAL = /^[-+]?(\d+\.?\d*|\.\d+)(E[-+]?\d+)?$/i;
 const inC = (text) => text.replace(/(?<=[\d.])D(?=[-+\d])/gi, "E"); // 1.0D-02 of Fortran
@@ -28,25 +29,41 @@ function inSeconds(unit) {
 }
 
 // As in src/topheavy/ground/reading.py, whose regular expressions these are
-const STEP = "(?<step>[\\d.]+(?:[ED][-+]?\\d+)?)[ \\t]*\\(?(?<unit>(?!NPTS|UNIT)[A-Z]*)";
-const COUNT = /\bNPTS\s*[=:]\s*(?<size>\d+)/i, TIME = new RegExp(`\\bDT\\s*(?:\\((?<before>\\w+)\\)\\s*)?[=:]\\s*${STEP}`, "i");
-const OLD = new RegExp(`^\\s*(?<size>\\d+)[ \\t,]+${STEP}[ \\t,)]*NPTS`, "im");
+const STEP = "(?<step>[^\\sA-Z(;]+(?:[ED][-+]?\\d+)?)[ \\t]*\\(?(?<unit>(?!NPTS|UNIT)[A-Z]*)";
+const COUNT = /\bNPTS\s*[=:]\s*(?<size>\d+)/gi, TIME = new RegExp(`\\bDT\\s*(?:\\((?<before>\\w+)\\)\\s*)?[=:]\\s*${STEP}`, "gi");
+const OLD = new RegExp(`^\\s*(?<size>\\d+)[ \\t,]+${STEP}[ \\t,)]*NPTS`, "gim");
 const STATED = "\\bunits?\\s*(?:of\\s+acc\\w*\\s*)?(?:\\b(?:of|are|is|in)\\b\\s*[:=]?|[:=])\\s*[(\\[]?";
 const UNIT = new RegExp(`(?:(${STATED})|[(\\[]|\\bacc\\w*\\s*[:=]\\s*|\\bunits?\\s+|\\bin\\s+(?!unit))(%\\s*g\\b|[^\\s,;()\\[\\]]+)(?!\\s*=)`, "gi");
 const CELL = /^\s*(.*?)\s*(?:[([]([^()[\]]*)[)\]]|\bin\s+(\S+(?:\s+g)?))?\s*$/i;
 
 /** An AT2 file: NPTS, DT and a unit in its first ten lines, then as many numbers. */
 function readAt2(lines) {
-  const head = lines.slice(0, 10).join("\n"), old = head.match(OLD);
-  const [points, time] = COUNT.test(head) && TIME.test(head) ? [head.match(COUNT), head.match(TIME)] : [old, old];
-  if (!points) throw new Error("expected “NPTS= n, DT= s SEC” in the first ten lines, as in PEER's AT2");
-  const end = head.slice(0, Math.max(...[points, time].map((match) => match.index + match[0].length))).split("\n").length;
-  const size = Number(points.groups.size), word = time.groups.unit || time.groups.before, second = inSeconds(word || "s"), step = decimal(time.groups.step) * (second ?? 1);
-  if (second === undefined || (!word && step > LONGEST_STEP)) throw new Error(`DT is ${time.groups.step}${word ? ` ${word}` : ", without a unit"}; expected SEC or MSEC behind it`);
+  const head = lines.slice(0, 10).join("\n"), found = [COUNT, TIME, OLD].map((pattern) => [...head.matchAll(pattern)]);
+  const [points, times] = found[0].length && found[1].length ? found : [found[2], found[2]];
+  if (!points.length) throw new Error("expected “NPTS= n, DT= s SEC” in the first ten lines, as in PEER's AT2");
+  const end = head.slice(0, Math.max(...[...points, ...times].map((match) => match.index + match[0].length))).split("\n").length;
+  const size = onlyOne("NPTS", points.map(({ groups }) => Number(groups.size))), step = onlyOne("DT", times.map(({ groups }) => stepOf(groups)));
+  const second = lines.findIndex((line, k) => k >= end && line.search(COUNT) >= 0);
+  if (second >= 0) throw new Error(`line ${second + 1} is a second header; expected one record`);
   const texts = lines.slice(end).join(" ").match(/\S+/g) ?? [], values = texts.slice(0, size).map(decimal), wrong = values.findIndex(Number.isNaN);
   if (wrong >= 0) throw new Error(`sample ${wrong + 1} is ${quoted(texts[wrong])}; expected a number`);
   if (values.length < size || /^[-+.\d]/.test(texts[size] ?? "")) throw new Error(`NPTS is ${size}, and ${values.length < size ? `only ${values.length}` : "more"} values follow; expected as many`);
   return { step, values, ...unitOf(lines.slice(0, end)) };
+}
+
+/** The one value that a header states, once or more. */
+function onlyOne(name, values) {
+  const other = values.find((value) => Math.abs(value - values[0]) > 1e-6 * values[0]);
+  if (other !== undefined) throw new Error(`the header states ${values[0]} and ${other} as ${name}; expected one value`);
+  return values[0];
+}
+
+/** The time step that a header states, s. */
+function stepOf({ step, unit, before }) {
+  const text = step.replace(/,+$/, ""), word = unit || before, second = inSeconds(word || "s"), value = decimal(text) * (second ?? 1);
+  if (!(value >= 0)) throw new Error(`DT is ${quoted(text)}; expected a number with a point, such as 0.01`);
+  if (second === undefined || (!word && value > LONGEST_STEP)) throw new Error(`DT is ${text}${word ? ` ${word}` : ", without a unit"}; expected SEC or MSEC behind it`);
+  return value;
 }
 
 /** The one unit of acceleration that the lines of a header state. */
@@ -86,6 +103,9 @@ function readCsv(lines) {
   if (/period|freq|\bp?sa\b|spectr/i.test([time, ...samples].map((j) => columns[j].name).join(" "))) throw new Error(`${said}, of a response spectrum; expected a ground motion`);
   if (samples.length > 1) throw new Error(`${said}; expected one column of acceleration: leave out the others`);
   const rows = lines.slice(k + 1).map((line, j) => ({ line, place: k + j + 2, cells: cellsOf(line, mark) })).filter(({ cells }) => cells.some((cell) => cell.trim()));
+  for (const { line, place, cells } of rows) {
+    if (cells.slice(columns.length).some((cell) => cell.trim())) throw new Error(`line ${place} is ${quoted(line)}, with more cells than line ${k + 1}: if its commas are decimal, separate the columns by semicolons`);
+  }
   const [printed, values] = [time, value].map((j) => rows.map(({ line, place, cells }) => {
     const number = decimal(mark === "," ? cells[j] : cells[j]?.replace(",", "."));
     if (Number.isNaN(number)) throw new Error(`line ${place} is ${quoted(line)}; expected numbers in its columns ${time + 1} and ${value + 1} of ${columns.length}`);
@@ -114,7 +134,10 @@ function doubts({ step, samples, peak, unit }) {
     velocity += (GRAVITY * step * (samples[k - 1] + samples[k])) / 2;
     fastest = Math.max(fastest, Math.abs(velocity));
   }
+  const sizes = samples.map(Math.abs), at = sizes.indexOf(peak), behind = samples.findIndex((a, k) => k > at && a !== samples[at]);
   return [
+    [Math.max(sizes[at - 1] ?? 0, sizes[behind] ?? 0) < peak / 2, `both neighbours of its peak, sample ${at + 1} of ${sizes.length}, are below half of it: does it stand for missing data?`],
+    [peak < SMALLEST, `its peak is ${brief(peak)} g, and few peaks of interest are below ${SMALLEST} g: is its unit another?`],
     [Math.abs(velocity) > 0.3 * fastest, `its velocity at the end is ${brief(velocity)} m/s, with a peak of ${brief(fastest)} m/s: is its baseline not corrected?`],
     [fastest > LARGEST.velocity, `its velocity reaches ${brief(fastest)} m/s, and few exceed ${LARGEST.velocity} m/s: is its unit another?`],
     [samples.every((a) => a >= 0) || samples.every((a) => a <= 0), "no sample changes sign: is it a ground acceleration?"],

@@ -24,6 +24,9 @@ MAX_CELLS = 100_000_000
 MAX_USUAL_ACCELERATION = 2.0
 """g. Few ground accelerations exceed it: of one that does a warning asks the unit."""
 
+MIN_USUAL_ACCELERATION = 0.005
+"""g. Few records of interest have a smaller peak: of one that does a warning asks the unit."""
+
 MAX_USUAL_STEP = 0.2
 """s. Few records have a longer time step: a warning asks whether it is in ms."""
 

@@ -40,6 +40,8 @@ def test_implausible_motion_is_doubted(browser, square):
         (square(0.3).replace(",-0.3", ",-0.1"), "is its baseline not corrected"),
         (square(2.5), "its velocity reaches"),
         (square(2.5), "its peak is 2.5 g"),
+        (square(0.004), "few peaks of interest are below 0.005 g"),
+        (square(0.1).replace(",0.1", ",0.9", 1), "sample 1 of "),
     ):
         found = read(browser, "motion.csv", content)
         assert isinstance(found, list), found

@@ -221,6 +221,10 @@ def _warn_if_implausible(record: Record, most: float) -> None:
     largest, fastest, last = np.abs(samples).max(), np.abs(velocities).max(), velocities[-1]
     step, one_sign = record.time_step, samples.min() * samples.max() >= 0.0 != largest
     clipped = max(_longest_run(samples == end) for end in (largest, -largest)) if largest else 0
+    padded, least = np.pad(samples, 1), checks.MIN_USUAL_ACCELERATION  # zero outside the record
+    peak = int(np.abs(padded).argmax())
+    behind = peak + int((padded[peak:] != padded[peak]).argmax())
+    beside = np.abs(padded[[peak - 1, behind]]).max()
     doubts = {
         f"the velocity at the end is {last:.3g} m/s, with a PGV of {fastest:.3g} m/s: if its "
         "baseline is not corrected, take record.detrended()": abs(last) > 0.3 * fastest,
@@ -229,6 +233,10 @@ def _warn_if_implausible(record: Record, most: float) -> None:
         f"time_step is {step:.6g} s: is it in ms?": step > checks.MAX_USUAL_STEP,
         f"the largest acceleration is {largest:.3g} g, and few exceed {most:g} g: is it in m/s² "
         "or counts?": largest > most,
+        f"the largest acceleration is {largest:.3g} g, and few peaks of interest are below "
+        f"{least:g} g: is its unit another?": 0.0 < largest < least,
+        f"both neighbours of the peak, sample {peak} of {samples.size}, are below half of it: does "
+        "it stand for missing data?": beside < 0.5 * largest,
         f"{clipped} samples in turn are equal to the peak: did the instrument reach its range?": (
             clipped >= MIN_CLIPPED
         ),
