@@ -120,6 +120,31 @@ rule friction:
         "../src/steps/beyond/friction.py"
 
 
+rule contacts:
+    input:
+        "results/tables/vase.csv",
+        "results/tables/four_structures.csv",
+        "results/tables/spectra_histories.csv",
+        "results/tables/spectra_falls.csv",
+        "results/tables/spectra_two_pulses.csv",
+    output:
+        contacts="results/tables/contacts.csv",
+        maps="results/tables/contacts_maps.csv",
+        findings="results/findings/contacts.json",
+    log:
+        "results/logs/contacts.log",
+    params:
+        code=code("src/steps/beyond/contacts.py"),
+        settings=PAPER["contacts"],
+        structures=PAPER["structures"],
+        of_vase=PAPER["vase"],
+        of_maps=PAPER["spectra"],
+    message:
+        "Contacts along the quoted motions"
+    script:
+        "../src/steps/beyond/contacts.py"
+
+
 rule designers:
     input:
         "results/tables/motions_gains.csv",
