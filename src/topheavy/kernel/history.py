@@ -240,7 +240,8 @@ def next_event(w, method, block, forcing, motion, until):
     zero_order, rocks = 0, True
     if event == LANDING or (event == NOTHING and state.rotation <= 0.0):
         impacts += 0 if is_low else 1
-        event, is_low, zero_order, state = LANDING, True, 1, after_impact(block, state)
+        is_low = method.detail == IMPACTS or impacts == 0  # else no other count is asked for
+        event, zero_order, state = LANDING, 1, after_impact(block, state)
         if time < forcing.end and comes_to_rest(block, forcing, state, method, peak):
             rocks, state = False, at_time(state, next_tick(time))
     if is_record and state.time >= stop:
