@@ -96,8 +96,6 @@ extern "C" double peak(double alpha, double restitution, double omega, double am
   return column.top / alpha;
 }
 
-extern "C" double peaks(double alpha, double r, const double *w, const double *a, int n, double tolerance) {
-  double sum = 0.0;
-  for (int i = 0; i < n; i++) sum += peak(alpha, r, w[i], a[i], tolerance);
-  return sum;
+extern "C" void peaks(double alpha, double r, const double *w, const double *a, int n, double tolerance, double *out) {
+  for (int i = 0; i < n; i++) out[i] = peak(alpha, r, w[i], a[i], tolerance);
 }

@@ -1,9 +1,10 @@
 """Time solvers at equal error, and count landings that they miss: python benchmarks/peers.py
 
-A column rocks under one-sine pulses; SciPy, CVODE, heyoka and two engines compute a sample of the
-map. Each has the largest tolerance at which the error of all peaks is below ERROR; the engines have
-one time step. Dependency group: `bench`, on Python 3.12 or later; C++ is left out where there is no
-compiler.
+A column rocks under one-sine pulses. This solver and a scalar C++ compute the whole map; SciPy,
+CVODE, heyoka and two engines compute a sample of it. Each has the largest tolerance at which it
+overturns the cells of the reference and the error of all its peaks is below ERROR; the engines,
+whose contacts are compliant, have one time step. Dependency group: `bench`, on Python 3.12 or
+later; C++ is left out where there is no compiler.
 
 Then flights are pushed outward so that they dip below zero by a given depth and come up again: a
 solver misses a landing where it sees none. Nor may it miss any of random flights.
@@ -296,18 +297,18 @@ def compiled(folder):
     subprocess.run(["c++", *fast, source, "-o", path], check=True)
     library, real, many = ctypes.CDLL(path), ctypes.c_double, np.ctypeslib.ndpointer(float)
     library.peak.argtypes, library.peak.restype = [real] * 5, real
-    library.peaks.argtypes = [real, real, many, many, ctypes.c_int, real]
+    library.peaks.argtypes = [real, real, many, many, ctypes.c_int, real, many]
+    library.peaks.restype = None
     return library.peak, library.peaks
 
 
 def main():
-    random = np.random.default_rng(SEED)
-    sample = random.choice(FREQUENCIES, N_SAMPLE), random.choice(AMPLITUDES, N_SAMPLE)
-    sample = np.transpose(sample).tolist()
-    exact = heyoka(0.0)
-    reference = np.array([peak(exact, *cell) for cell in sample])
-    history = sample[int(np.flatnonzero(np.isfinite(reference))[0])]
     w, a = (grid.ravel() for grid in np.meshgrid(FREQUENCIES, AMPLITUDES))
+    exact, cells = heyoka(0.0), np.transpose([w, a]).tolist()
+    reference = np.array([peak(exact, *cell) for cell in cells])
+    places = np.random.default_rng(SEED).choice(w.size, N_SAMPLE, replace=False)
+    sample = [cells[place] for place in places]
+    history = sample[int(np.flatnonzero(np.isfinite(reference[places]))[0])]
     grid = (
         [oscillator(BLOCK)],
         pulse_waveform("one-sine"),
@@ -324,28 +325,31 @@ def main():
         "MuJoCo": lambda tolerance: engine_peak,
         "DART": lambda tolerance: dart_peak,
     }
-    whole = {"this solver": lambda t: outcomes_of(*grid, tolerance=t, threads=1)}
+    whole = {"this solver": lambda t: outcomes_of(*grid, tolerance=t, threads=1).peaks / ALPHA}
     if shutil.which("c++"):
         with tempfile.TemporaryDirectory() as folder:
             one_by, many_by = compiled(folder)
         block = ALPHA, BLOCK.restitution
         solvers["scalar C++"] = lambda t: lambda *cell: one_by(*block, *cell, t)
-        whole["scalar C++"] = lambda t: many_by(*block, w, a, w.size, t)
+        peaks = np.empty(w.size)
+        whole["scalar C++"] = lambda t: many_by(*block, w, a, w.size, t, peaks) or peaks
     least = None
     for name, solver in solvers.items():
         for tolerance in TOLERANCES if name not in ENGINES else TOLERANCES[:1]:
             solve = solver(tolerance)
-            apart = np.abs([solve(*cell) for cell in sample] - reference)
-            if np.array_equal(np.isnan(apart), np.isnan(reference)) and np.nanmax(apart) < ERROR:
+            compute = partial(lambda solve: [solve(*cell) for cell in sample], solve)
+            expected = reference[places]
+            if name in whole:
+                compute, expected = partial(whole[name], tolerance), reference
+            apart = np.abs(compute() - expected)
+            if np.array_equal(np.isnan(apart), np.isnan(expected)) and np.nanmax(apart) < ERROR:
                 break
-        one = partial(solve, *history), 1
-        many = partial(lambda solve: [solve(*cell) for cell in sample], solve), N_SAMPLE
-        if name in whole:
-            many = partial(whole[name], tolerance), w.size
+        one, many = (partial(solve, *history), 1), (compute, expected.size)
         times = np.array([min(repeat(f, timer=process_time, number=1)) / n for f, n in (one, many)])
         least = times if least is None else least
         print(
-            f"{name}: {np.nanmax(apart):.0e} α off, {np.isnan(apart).sum()} overturn; "
+            f"{name} at {tolerance:.0e}: {expected.size} cells, {np.nanmax(apart):.0e} α off, "
+            f"{np.isnan(apart).sum()} overturn; "
             f"history, cell: {1e6 * times} µs,",
             times / least,
         )
