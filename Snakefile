@@ -36,6 +36,8 @@ if re.search(r"[^\w@%+=:,./-]", sys.executable):
     )
 BEGUN = time.time()
 os.environ["RUN"] = str(os.getpid())  # a step whose run has ended writes nothing
+# Jobs keep the compiled modules that they import, also where an image forbids it: two seconds a job.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 for path in ["config/config.yaml", *workflow.configfiles]:

@@ -70,9 +70,8 @@ def _imports(path: Path) -> Iterator[str]:
     if path.suffix == ".ipynb":
         cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
         text = "\n".join("".join(cell["source"]) for cell in cells)
-    nodes = list(ast.walk(ast.parse(text, path)))
-    aliases = {}
-    for node in nodes:
+    tree, aliases = ast.parse(text, path), {}
+    for node in _statements(tree):
         if isinstance(node, ast.Import):
             aliases |= {alias.asname or alias.name: alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -80,10 +79,25 @@ def _imports(path: Path) -> Iterator[str]:
             base = ".".join([*above, *filter(None, [node.module])])
             yield from (f"{base}.{alias.name}" for alias in node.names)
     yield from aliases.values()
-    for node in nodes:
+    ours = {name: module for name, module in aliases.items() if _is_package(module)}
+    for node in ast.walk(tree) if ours else ():
         match node:  # a name of a package, which may be loaded lazily
-            case ast.Attribute(value=ast.Name(id=package_name)) if package_name in aliases:
-                yield f"{aliases[package_name]}.{node.attr}"
+            case ast.Attribute(value=ast.Name(id=package_name)) if package_name in ours:
+                yield f"{ours[package_name]}.{node.attr}"
+
+
+def _statements(tree: ast.AST) -> Iterator[ast.AST]:
+    """Return all statements, without their expressions: imports are statements."""
+    waiting = [tree]
+    while waiting:
+        yield (node := waiting.pop())
+        for block in ("body", "orelse", "finalbody", "handlers", "cases"):
+            waiting += inner if isinstance(inner := getattr(node, block, None), list) else []
+
+
+def _is_package(name: str) -> bool:
+    """Return whether a dotted name is a package of this repository."""
+    return any(folder.joinpath(*name.split(".")).is_dir() for folder in FOLDERS)
 
 
 @cache
