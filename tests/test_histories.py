@@ -9,7 +9,8 @@ import pytest
 
 import topheavy as th
 from steps.shared import plain
-from tests.cases import BLOCK, BOTH, BY_TWO, EVERY, fate
+from tests.cases import BLOCK, BOTH, fate
+from tests.solvers import BY_TWO, EVERY
 from topheavy.bodies.free_rocking import potential
 from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.kernel.history import MAX_FREE_FLIGHT

@@ -1,10 +1,10 @@
-"""What is refused or asked about, by every public function: each check once, with its words."""
+"""What is refused or asked about: each check once with its words, and by each public argument."""
 
 import copy
 import math
 import pickle
 import re
-from functools import partial
+from functools import cache, partial, wraps
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,9 +12,9 @@ import pytest
 
 import topheavy as th
 from steps.shared.linear import simulate_linear_exact as closed
-from tests.cases import BLOCK, COLUMN, FRAME, MOTION, RECORDS
+from tests.cases import BLOCK, COLUMN, FRAME, MOTION
+from topheavy import checks
 from topheavy.bodies.free_rocking import quarter_period, restoring_moment
-from topheavy.bodies.kinematics import outlines
 from topheavy.bodies.response import MAX_SAMPLES
 from topheavy.bodies.structures import simplified
 from topheavy.forces.contacts import forces_at
@@ -31,7 +31,6 @@ MOTIONS = [th.Record(0.02, 0.3 * np.sin(k * np.arange(200))) for k in (0.03, 0.0
 LEVELS = np.geomspace(0.1, 3.0, 20)
 FACTORS = np.geomspace(0.5, 2.0, 600)
 CAP = th.Cap(5.0, 0.5)
-RESPONSE = th.simulate(FRAME, SHAKING, samples=50)
 SCALED = {"vertical": UP, "scale_vertical": True}
 SHAKEN = {"structure": FRAME, "excitation": SHAKING}
 MAP = {"structure": FRAME, "scales": [1.0, 2.0], "amplitudes": [0.25]}
@@ -46,6 +45,21 @@ SINE = {"shape": "one-sine", "amplitude": 0.5}
 SINES = {"shape": "one-sine", "periods": [1.0, 2.0], "highest": 4.0}
 THREE_NUMBERS = {"frequency_parameter": 2.0, "slenderness": 0.25, "restitution": 0.5}
 OUTCOMES = {"factors": FACTORS, "overturned": FACTORS > 1.5, "unit_acceleration": 0.5}
+
+
+@cache
+def history():
+    return th.simulate(FRAME, SHAKING, samples=50)
+
+
+def of_response(function):
+    """Return a function that computes its response when it is called, and not before any test."""
+
+    @wraps(function)
+    def called(response, **values):
+        return function(response=history() if response is history else response, **values)
+
+    return called
 
 
 def call(function, **values):
@@ -86,9 +100,11 @@ CALLS = [
     call(th.capacity, structure=FRAME, record=SHAKING, **SCALED),
     call(th.Capacity, **OUTCOMES, share=0.5),
     call(th.fragility, **CURVES),
-    call(th.contact_forces, structure=FRAME, cap=CAP, response=RESPONSE, motion=SHAKING),
+    call(
+        of_response(th.contact_forces), structure=FRAME, cap=CAP, response=history, motion=SHAKING
+    ),
     call(th.impact_impulses, frame=FRAME, cap=CAP, velocity=0.5),
-    call(th.plot.history, response=RESPONSE),
+    call(of_response(th.plot.history), response=history),
     call(th.plot.structure, shown=FRAME, rotation=0.125, cap_width=5.0, cap_depth=0.5),
 ]
 ARGUMENTS = [(function, values, name) for function, values in CALLS for name in values]
@@ -148,11 +164,8 @@ def test_samples_of_a_record_cannot_be_written_to(twin):
 
 STOCKY = th.Column(2.0, 1.0)
 THREE = th.RockingFrame.of_masses(COLUMN, 600.0, 60.0, columns=3)
-NARROW = th.Cap(1.0, 0.2)
 FOREVER = th.Pulse("harmonic", 0.3, 5.0)
 STILL = th.Record(0.02, [0.0, 0.0, 0.0], "still")
-FINE = np.linspace(0.1, 1.0, 20_000)
-GRID = {"factors": [1.0, 1.001], "overturned": [False, True]}
 LATE = th.Record(0.02, SHAKING.acceleration, start=2.0)
 FALLING = th.Record(0.05, [0.0, 0.4, -0.5, 0.0])
 of = partial(th.RockingFrame.of_masses, COLUMN)
@@ -173,101 +186,78 @@ def arias(motion):
 
 
 BAD = {  # what the message begins with or has, and what is called
-    "half_width is -0.2 m; expected more than zero": lambda: th.Column(-0.2, 3.0),
-    "half_width is 1e+300 m; expected at most 1e+09 m": lambda: th.Column(1e300, 3.0),
-    "mass_ratio is -1e-300; expected γ": lambda: th.RockingFrame(COLUMN, -1e-300),
+    # the checks by which all functions refuse a value
+    "x is '1'; expected a number": lambda: checks.number("x", "1"),
+    "x is nan; expected a finite number": lambda: checks.finite("x", math.nan),
+    "x: element 1 is None; expected a number": lambda: checks.numbers("x", [0.1, None]),
+    "expected rows of equal length": lambda: checks.numbers("x", [[0.1], [0.2, 0.3]]),
+    "x has shape (0,); expected a list": lambda: checks.axis_values("x", []),
+    "x has shape (1, 1); expected a list": lambda: checks.axis_values("x", [[1.0]]),
+    "x holds inf; expected finite": lambda: checks.axis_values("x", [1.0, math.inf]),
+    "x goes down to 0; it cannot be zero or": lambda: checks.axis_values("x", [1.0, 0.0]),
+    "it cannot be negative": lambda: checks.axis_values("x", [-1.0], zero_allowed=True),
+    "x is 0 m; expected more than zero": lambda: checks.positive("x", 0.0, "m"),
+    "x is -1; expected zero or more": lambda: checks.not_negative("x", -1.0),
+    "x is -1e+07 g; expected at most 1e+06 g": lambda: checks.within_reason("x", -1e7, "g"),
+    "x: 4e+08 cells; expected at most": lambda: checks.number_of_cells("x", 20_000, 20_000),
+    "span is 1 m; expected more than the width": lambda: checks.wider_than_column(1.0, 1.0),
+    "x is 1.5708 rad (90°); expected": lambda: checks.within_quarter_turn("x", math.pi / 2),
+    "x is -0.01; expected a number from 0 to 1": lambda: checks.fraction("x", -0.01),
+    "x is 1.01; expected a number from 0 to 1": lambda: checks.fraction("x", 1.01),
+    "x is 1; expected a whole number from 2 to 9": lambda: checks.whole("x", 1, 2, 9),
+    "x is 2.5; expected a whole number from 2 on": lambda: checks.whole("x", 2.5, 2),
+    "x is 1; expected True or False": lambda: checks.truth("x", 1),
+    # bodies
     "mass_ratio is nan; expected γ": lambda: th.RockingFrame(COLUMN, math.nan),
-    "columns is 1; expected a whole number from 2 to": lambda: of(1.0, 1.0, columns=1),
-    "frequency_parameter is 0": lambda: th.RockingBlock(0.0, 0.25, 0.9),
-    "slenderness is 0 rad": lambda: th.RockingBlock(2.0, 0.0, 0.9),
-    "slenderness is 1.5708 rad (90°); expected": lambda: th.RockingBlock(2.0, math.pi / 2, 0.9),
-    "restitution is -0.01; expected a number from 0 to 1": lambda: th.RockingBlock(2, 0.25, -0.01),
-    "restitution is 1.01; expected a number from": lambda: th.RockingBlock(2.0, 0.25, 1.01),
-    "span is 0.9 m; expected more than the width": lambda: th.MonolithicPortal(COLUMN, 1.0, 0.9),
     "45°": lambda: simplified(th.RockingFrame(th.Column(1.1, 1.0), 0.1)),
     "expected a finite γ": lambda: restoring_moment(th.RockingFrame(COLUMN, math.inf), 0.1),
     "rotation is 0 rad; expected between 0 and α = 0.25": lambda: quarter_period(BLOCK, 0.0),
     "slenderness is 1.10715 rad (63.43°)": lambda: th.simulate(STOCKY, PULSE),
     # ground
-    "amplitude is 1e+160 g; expected at most": lambda: th.Pulse("one-sine", 1e160, 5.0),
     "angular_frequency is None and period is None": lambda: th.Pulse("one-sine", 0.3),
     "is 2.0 and period is 3.0; expected one": lambda: th.Pulse("one-sine", 0.3, 2.0, period=3.0),
-    "cycles is 0; expected a whole number from 1 to 100": lambda: th.Pulse(
-        **SINE, cycles=0, period=1
-    ),
-    "cycles is 101; expected": lambda: th.Pulse(**SINE, cycles=101, period=1),
     "cycles is 2 for shape 'half-sine'": lambda: th.Pulse("half-sine", 0.3, 5.0, cycles=2),
     "'onesine' (did you mean 'one-sine'?)": lambda: th.Pulse("onesine", 0.3, 5.0),
     f"'sawtooth'; expected one of {', '.join(PULSE_SHAPES)}": lambda: th.Pulse("sawtooth", 1, 1),
     "t holds NaN; expected times in s": lambda: PULSE.excitation(math.nan),
-    "t: element 0 is '0.3'; expected a number": lambda: PULSE.excitation("0.3"),
     "sample 1 of 2 is nan": lambda: record([0.0, math.nan]),
-    "sample 1 of 2 is 1e+200 g": lambda: record([0.0, 1e200]),
-    "acceleration: element 1 is None; expected": lambda: record([0.1, None]),
-    "rows of equal length": lambda: record([[0.1], [0.2, 0.3]]),
     "'Kos' has shape (1,); expected at least two samples": lambda: record([0.3], "Kos"),
-    "has shape (1, 2); expected at least two samples": lambda: record([[0.1, 0.2]]),
     "name is 'm/s2'; expected a text that is no": lambda: record([0.0, 0.1], "m/s2"),
     "record 'a': unit is 'm/s'; expected one of g, %g": lambda: record([0, 1], "a", unit="m/s"),
-    "start is nan": lambda: record([0.0, 0.1], start=math.nan),
-    "pga is None, pgv is None; expected one of both": lambda: SHAKING.scaled_to(),
     "pga is 1, pgv is 2; expected one of both": lambda: SHAKING.scaled_to(pga=1, pgv=2),
     "record 'still' has no acceleration": lambda: STILL.scaled_to(pga=1.0),
     "path is None": lambda: th.read_record(None),
-    "column is None; expected a number": lambda: th.read_record(RECORDS / "x.AT2", None),
     # outcomes
-    "velocity is 1e+70 rad/s; expected at": lambda: th.simulate(COLUMN, PULSE, velocity=1e70),
     "excitation starts at 0 s, vertical at 2 s": lambda: th.judge(FRAME, SHAKING, vertical=LATE),
     "amplitude is 5e+69 g; expected at most": lambda: th.overturned_by(COLUMN, PULSE, [1e70]),
-    "factors goes down to -1": lambda: th.overturned_by(BLOCK, PULSE, [1.0, -1.0]),
-    "factors has shape": lambda: th.overturned_by(BLOCK, PULSE, []),
-    "structures is empty; expected one": lambda: th.overturned_by([], PULSE, [1.0]),
-    "g; expected at most 1e+06 g": lambda: th.peak_rotations(COLUMN, SHAKING, [1e70]),
     "'harmonic', which goes on forever": lambda: a_map("harmonic", [1.0], [0.3]),
-    "scales has shape (0,); expected a list": lambda: a_map("one-sine", [], [0.3]),
-    "scales goes down to 0; it cannot be zero or": lambda: a_map("one-sine", [1.0, 0.0], [0.3]),
-    "scales by amplitudes: 4e+08 cells; expected": lambda: a_map("one-sine", FINE, FINE),
-    "scales is 1e+70 m; expected": lambda: a_map(SHAKING, [1e70], [0.1]),
     "record 'still' has a peak acceleration of 0 g": lambda: a_map(STILL, [1.0], [0.3]),
-    "amplitudes is 1e+07 g": lambda: a_map(SHAKING, [1.0], [1e7]),
     "scale_range is (2, 1); expected it to ascend": lambda: lowest(PULSE, (2.0, 1.0), floor=0.1),
     "scale_range begins at -1;": lambda: lowest(PULSE, (-1.0, 1.0), floor=0.1),
-    "floor is 0; expected more than zero": lambda: lowest(PULSE, (0.0, 1.0), floor=0.0),
     "floor is 1e-11 of 4.5 to 8": lambda: lowest(PULSE, (4.5, 8.0), floor=1e-11),
     "excitation is 3; expected a Pulse": lambda: lowest(3, (0.0, 1.0), floor=0.1),
-    "scale_range is (1, 1); expected": lambda: intervals((1.0, 1.0), resolution=0.1),
     "resolution is 1e-300 of 0 to 5": lambda: intervals((0.0, 5.0), resolution=1e-300),
-    "periods goes down to 0": lambda: th.overturning_spectrum(BLOCK, "one-sine", [0.0, 1.0]),
     "which goes on forever": lambda: th.overturning_spectrum(BLOCK, "harmonic", [1.0]),
     "highest is 0.5; exp": lambda: th.overturning_spectrum(BLOCK, "one-sine", 1, highest=0.5),
     "peak acceleration of the record is 0;": lambda: th.capacity(COLUMN, STILL),
     "factors do not increase": lambda: th.Capacity([1.0, 1.0], [True, True]),
-    "factors goes down to 0;": lambda: th.Capacity([0.0, 1.0], [True, True]),
     "overturned has shape (1,); expected (2,)": lambda: th.Capacity([1.0, 1.001], [True]),
-    "share is 1.1; expected a number from 0 to 1": lambda: th.Capacity(**GRID, share=1.1),
     "the block is not linearised": lambda: closed(COLUMN.block(), PULSE),
     ", ".join(ELEMENTARY): lambda: closed(COLUMN.block().linear(), RICKER),
     # forces
-    "span is 1 m; expected more than the width of": lambda: forces_at(FRAME, NARROW, 0.1, 0, 0),
-    "distance between their axes": lambda: th.impact_impulses(FRAME, NARROW, 0.1),
-    "rotation: element 0 is '0.1'": lambda: forces_at(FRAME, CAP, "0.1", 0.1, 0.0),
-    "ground_acceleration: element 0 is {}": lambda: forces_at(FRAME, CAP, 0.1, 0.1, {}),
     "up to 1.7 rad; expected less than π/2": lambda: forces_at(FRAME, CAP, [-1.7, 0.1], 0, 0),
     "no rocking after an impact": lambda: th.impact_impulses(th.RockingFrame(STOCKY, 1), CAP, 0.5),
     "has 3 columns; expected two": lambda: th.impact_impulses(THREE, CAP, 0.1),
-    "frame has 3 columns; expected": lambda: forces_at(THREE, CAP, 0.1, 0.0, 0.0),
-    "frame has 3 columns": lambda: outlines(THREE, 0.1, 4.0, 0.3),
-    "frame has 3": lambda: th.plot.structure(THREE),
-    "expected one that simulate returned": lambda: forces(RESPONSE.rotation, RESPONSE.velocity),
-    "response differs by up to": lambda: forces(RESPONSE),
-    "differs by up": lambda: forces(RESPONSE, SHAKING.scaled(1.01)),
+    "expected one that simulate returned": lambda: forces(history().rotation, CAP),
+    "response differs by up to": lambda: forces(history()),
+    "differs by up": lambda: forces(history(), SHAKING.scaled(1.01)),
     "without a vertical component": lambda: forces(th.simulate(**SHAKEN, vertical=UP), SHAKING),
     "response begins at 0.5 s; expected t = 0": lambda: forces(
         th.simulate(**SHAKEN, samples=[0.5, 1.0]), SHAKING
     ),
     "expected a RockingFrame": lambda: th.impact_impulses(COLUMN, CAP, 0.1),
-    "expected a RockingFrame, a Column": lambda: th.contact_forces(BLOCK, None, RESPONSE, SHAKING),
-    "since Column has no loose cap": lambda: th.contact_forces(COLUMN, CAP, RESPONSE, SHAKING),
+    "expected a RockingFrame, a Column": lambda: th.contact_forces(BLOCK, None, history(), SHAKING),
+    "since Column has no loose cap": lambda: th.contact_forces(COLUMN, CAP, history(), SHAKING),
     "the excitation goes on forever": lambda: clamped_forces(FRAME, CAP, FOREVER),
     # risk
     "structures is empty; expected one, a list, or": lambda: fragile(structures={}),
@@ -278,7 +268,6 @@ BAD = {  # what the message begins with or has, and what is called
     "expected a Record or a Pulse that ends": lambda: fragile(motions=[FOREVER]),
     "measure of motions[1] is 0; expected more": lambda: fragile(motions=[SHAKING, STILL]),
     "which has no PGV; expected a Record, or a fun": lambda: fragile(motions=[PULSE]),
-    "levels goes down to 0; it cannot be zero": lambda: fragile(levels=[0.0, 0.1]),
     "levels is array([0.3, 0.1]); expected levels": lambda: fragile(levels=[0.3, 0.1]),
     "measure is 'PGD'; expected 'PGV', 'PGA'": lambda: fragile(measure="PGD"),
     "measure is <class": lambda: fragile(measure=th.Column),
@@ -289,9 +278,7 @@ BAD = {  # what the message begins with or has, and what is called
     "grows by 1 under a factor of 2 on": lambda: fragile(measure=lambda motion: 3.0),
     "expected 4 Records, one a motion": lambda: fragile(vertical=[UP]),
     "vertical[1] is None; expected a Record for": lambda: fragile(vertical=[UP, None, UP, UP]),
-    "seed is None; expected a number": lambda: fragile(seed=None),
     "confidence is 1; expected more than 0 and less than 1": lambda: fragile(confidence=1.0),
-    "resamples is 10; expected a whole number from 100 to": lambda: fragile(resamples=10),
     "rotation_limit is 5 rad (286.5°); expected an angle": lambda: fragile(rotation_limit=5.0),
 }
 
@@ -329,9 +316,6 @@ def test_what_is_no_ground_motion_is_refused_with_an_example(solver, motion):
     ("options", "message"),
     [
         ({"rotation": math.pi / 2}, "rotation is 1.5708 rad; expected less than π/2"),
-        ({"duration": 0.0}, "duration is 0 s; expected more than zero"),
-        ({"duration": 1e300}, r"duration is 1e\+300 s; expected at most 1e\+09 s"),
-        ({"samples": 1}, "samples is 1; expected a whole number from 2 to"),
         ({"samples": 10**9}, f"samples is 1000000000; expected .* to {MAX_SAMPLES}"),
         ({"samples": [[0.0, 1.0]]}, r"samples has shape \(1, 2\); expected a list of times in s"),
         ({"samples": [0.0, math.nan]}, "samples holds times that are not finite"),
@@ -340,13 +324,6 @@ def test_what_is_no_ground_motion_is_refused_with_an_example(solver, motion):
 )
 def test_history_is_refused(options, message):
     refused(th.simulate, message, **options)
-
-
-@pytest.mark.parametrize("solver", [th.simulate, *JUDGES])
-def test_tolerance_out_of_range_is_refused(solver):
-    for value in (0.02, 1e-300, math.nan):
-        says = rf"tolerance is {value}; expected a number from 1e-16 to 0\.01$"
-        refused(solver, says, tolerance=value)
 
 
 @pytest.mark.parametrize("value", [1e-16, np.float64(1e-14), 1e-2])

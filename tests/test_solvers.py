@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 import topheavy as th
 from steps import verification
 from steps.shared import plain
-from tests import cases
-from tests.cases import BLOCK, BY_TWO, CLOSE, CLOSED_PULSES, EVERY, NAMES, ON_LINEAR, SIDES
+from tests.cases import BLOCK, CONFIG, SIDES
+from tests.solvers import BY_TWO, CLOSE, CLOSED_PULSES, EVERY, NAMES, ON_LINEAR
 from topheavy.bodies.free_rocking import (
     barrier,
     energy,
@@ -29,7 +29,7 @@ def speed(block, level, tilt=0.0):
 
 # ---------------------------------------------------------------------------- printed numbers
 
-ROWS = {row["quantity"]: row for row in cases.CONFIG["verification"]["published"]}
+ROWS = {row["quantity"]: row for row in CONFIG["verification"]["published"]}
 IMPACTS = {verification.END: 1, "one_sine_without_impact": 0, "one_sine_dimensional": 0}  # before
 
 

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
+import scipy
 from scipy.optimize import minimize
 from scipy.special import log_ndtr, ndtr
-from scipy.stats import beta, binom, bootstrap
 
 from topheavy.risk import curve as module
 from topheavy.risk import fragility, resampling
@@ -160,7 +160,7 @@ def test_paired_interval_is_that_of_scipy():
     means = Ensemble(both, None, 20000, 1, 0.95).means()
     value, *ends = interval(means[:, 0] - means[:, 1], 0.95)
     assert value == pytest.approx(first.mean() - second.mean())
-    other = bootstrap(
+    other = scipy.stats.bootstrap(
         both.T,
         lambda x, y, axis: x.mean(axis=axis) - y.mean(axis=axis),
         paired=True,
@@ -180,7 +180,7 @@ def test_interval_within_groups_is_that_of_scipy():
     parts = [random.random(25) < 0.1, random.random(40) < 0.7, random.random(35) < 0.95]
     fell, groups = np.concatenate(parts).astype(float), np.repeat(["a", "b", "c"], [25, 40, 35])
     means = Ensemble(fell, groups.tolist(), 20000, 1, 0.9).means()
-    other = bootstrap(
+    other = scipy.stats.bootstrap(
         [part.astype(float) for part in parts],
         lambda *each, axis: sum(one.sum(axis=axis) for one in each) / 100.0,
         vectorized=True,
@@ -243,10 +243,12 @@ def test_exact_interval_has_half_of_the_rest_on_each_side(confidence):
     counts = np.arange(13).reshape(1, 13)
     low, high = exact_interval(counts, 12, confidence)
     tail = (1.0 - confidence) / 2.0
-    assert binom.sf(counts - 1, 12, low)[counts > 0] == pytest.approx(tail, rel=1e-6)
-    assert binom.cdf(counts, 12, high)[counts < 12] == pytest.approx(tail, rel=1e-6)
+    assert scipy.stats.binom.sf(counts - 1, 12, low)[counts > 0] == pytest.approx(tail, rel=1e-6)
+    assert scipy.stats.binom.cdf(counts, 12, high)[counts < 12] == pytest.approx(tail, rel=1e-6)
     assert (low[0, 0], high[0, -1]) == (0.0, 1.0)
-    assert low[0, 1:] == pytest.approx(beta.ppf(tail, counts[0, 1:], 13 - counts[0, 1:]))
+    assert low[0, 1:] == pytest.approx(
+        scipy.stats.beta.ppf(tail, counts[0, 1:], 13 - counts[0, 1:])
+    )
 
 
 def test_sign_test_is_exact():

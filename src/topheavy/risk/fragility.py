@@ -12,7 +12,7 @@ import numpy as np
 import pandas
 import xarray
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import beta, binomtest
+from scipy.special import bdtr, betaincinv
 
 from topheavy import checks
 from topheavy.bodies.structures import Structures, named_blocks
@@ -325,8 +325,8 @@ def exact_interval(
     `trials` is the number of trials of each count; both ends have the shape of the counts.
     """
     tail, left = 0.5 * (1.0 - confidence), trials - counts
-    low = np.where(counts > 0, beta.ppf(tail, counts, left + 1), 0.0)
-    high = np.where(left > 0, beta.ppf(1.0 - tail, counts + 1, left), 1.0)
+    low = np.where(counts > 0, betaincinv(counts, left + 1, tail), 0.0)
+    high = np.where(left > 0, betaincinv(counts + 1, left, 1.0 - tail), 1.0)
     return low, high
 
 
@@ -335,8 +335,5 @@ def sign_test(ones: NDArray[np.int64], others: NDArray[np.int64]) -> Array:
 
     The exact test of McNemar: of pairs that differ, the `ones` are binomial with 1/2.
     """
-    p_values = [
-        binomtest(int(one), int(one + other)).pvalue if one + other else 1.0
-        for one, other in zip(ones.ravel(), others.ravel(), strict=True)
-    ]
-    return np.array(p_values, dtype=float).reshape(ones.shape)
+    p_values: Array = 2.0 * bdtr(np.minimum(ones, others), ones + others, 0.5)
+    return np.minimum(1.0, p_values)
