@@ -129,6 +129,7 @@ rule verification:
         verification_routes="results/tables/verification_routes.csv",
         verification_published="results/tables/verification_published.csv",
         verification_closed_forms="results/tables/verification_closed_forms.csv",
+        verification_order="results/tables/verification_order.csv",
         findings="results/findings/verification.json",
     log:
         "results/logs/verification.log",
@@ -136,6 +137,7 @@ rule verification:
         code=code("src/steps/verification.py"),
         settings=PAPER["verification"],
         solver=PAPER["solver"],
+        counts=["order_lost", "lighter_first", "samples_beyond_alpha"],  # of outcomes
     message:
         "Comparing solvers with each other and with the literature"
     script:

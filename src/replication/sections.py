@@ -186,6 +186,9 @@ Paper = section(
         frequency_ratios=Range[Positive],
         amplitudes=Range[Positive],
         published=Items[section("quantity source printed to expected tolerance")],
+        order=section(
+            "slendernesses", pairs=Items[Range[MassRatio]], factors=Items[Positive], histories=Count
+        ),
     ),
     spectra=section(
         "shards slendernesses shapes mass_ratios frequency_ratios",

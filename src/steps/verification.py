@@ -13,6 +13,7 @@ from scipy.special import ellipkinc
 from replication.step import check, power_above, run, value
 from steps.shared import plain
 from steps.shared.linear import simulate_linear_exact
+from steps.shared.steered import attack
 from topheavy import (
     Column,
     Pulse,
@@ -146,6 +147,16 @@ def free_rocking():
         yield {"quantity": quantity, "closed_form": closed_form, "computed": computed}
 
 
+def until_impact(settings):
+    """Yield how steered motions order two frames, within the bound of Theorem 2 and beyond."""
+    spec = settings["order"]
+    for factor in spec["factors"]:
+        for degrees in spec["slendernesses"]:
+            row = {"factor": factor, "slenderness_deg": degrees}
+            case = math.radians(degrees), spec["pairs"], factor, spec["histories"]
+            yield row | attack(*case, settings["seed"])
+
+
 def check_drift(settings):
     """Check that free rocking conserves its energy between impacts."""
     for degrees in settings["slendernesses"]:
@@ -162,10 +173,13 @@ def compute(settings, solver):
         "verification_routes": list(agreement(settings, solver["tightened"])),
         "verification_published": published(settings["published"]),
         "verification_closed_forms": list(free_rocking()),
+        "verification_order": list(until_impact(settings)),
     }
 
 
-def findings(verification_routes, verification_published, verification_closed_forms):
+def findings(
+    verification_routes, verification_published, verification_closed_forms, verification_order
+):
     routes, literature = verification_routes, verification_published
     differ, apart = routes.outcomes_that_differ.sum(), routes.error_99.max()
     check(
@@ -180,7 +194,17 @@ def findings(verification_routes, verification_published, verification_closed_fo
     forms = verification_closed_forms
     off_form = (forms.computed / forms.closed_form - 1.0).abs().max()
     check(off_form < OF_FORM, f"free rocking is {off_form:.1g} of itself from its closed form")
+    within = verification_order.factor <= 1.0
+    lost = verification_order.order_lost + verification_order.lighter_first
+    check(
+        lost[within].sum() == 0, f"within its bound Theorem 2 fails in {lost[within].sum()} cases"
+    )
+    check((lost[~within] > 0).all(), "beyond the bound of Theorem 2 the attack finds nothing")
     return {
+        "histories_within_bound": value(verification_order.histories[within].sum(), 0.0),
+        "order_lost_beyond_bound": value(
+            (verification_order.order_lost / verification_order.histories)[~within].min(), 0.01
+        ),
         "comparisons": value(routes.cells.sum(), 0.0),
         "error_99": value(apart, 0.0),
         "farthest_from_print": value(off_print.max(), 0.0),

@@ -195,16 +195,19 @@ def test_errors_are_of_pulses_that_overturn_neither_and_have_a_range_over_pulses
         ("routes", "outcomes_that_differ", "outcomes differ"),
         ("published", "computed", "literature, one differ"),
         ("closed", "computed", "closed form"),
+        ("order", "order_lost", "Theorem 2 fails in 1 cases"),
     ],
 )
 def test_solver_that_differs_stops_verification(row, change, words):
     routes = pd.DataFrame([{"outcomes_that_differ": 0, "error_99": 1e-9, "cells": 9}])
     number = {"quantity": "one", "printed": 0.99, "to": 1.01, "expected": 1.0, "computed": 1.0}
     closed = pd.DataFrame([{"closed_form": 1.0, "computed": 1.0}])
+    lost = {"factor": [1.0, 1.5], "order_lost": [0, 3], "lighter_first": 0, "histories": 9}
     given = {
         "routes": routes,
         "published": pd.DataFrame([number | {"tolerance": 1e-3}]),
         "closed": closed,
+        "order": pd.DataFrame(lost),
     }
     assert verification.findings(*given.values())["farthest_from_print"]["value"] == 0.0
     given[row].loc[0, change] += 1
