@@ -29,7 +29,8 @@ from oracle import AT_REST, Flights, ended
 from scipy.integrate import solve_ivp
 from sksundae.cvode import CVODE
 
-from steps.beyond.rigid_bodies import OVERTURNED, WAIT, Bodies, motion
+from steps.beyond.inclinations import OVERTURNED, WAIT
+from steps.beyond.rigid_bodies import Bodies, motion
 from topheavy import STANDARD_GRAVITY, Cap, Column, Pulse, RockingBlock, judge, simulate
 from topheavy.kernel.forcing import pulse_waveform
 from topheavy.kernel.grid import outcomes_of

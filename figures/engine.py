@@ -1,22 +1,12 @@
-"""Coefficients of restitution, and frames across their plane, in a rigid-body engine."""
+"""Frames across their plane in a rigid-body engine."""
 
-from palette import greys
-
-from replication.drawing import DOUBLE, GREY, gamma, letter, note, shades, sheet
-
-STYLES = ("o-", "s--", "^-.", "D:")
+from replication.drawing import GREY, SINGLE, gamma, note, shades, sheet
 
 
-def draw(engine_restitution, engine_across):
-    figure, axes = sheet(DOUBLE, 48, "ab")
-    letter(axes.values(), ["Coefficient of restitution", "Across the plane"])
-    _restitution(axes["a"], engine_restitution)
-    _across(axes["b"], engine_across)
-    return figure
-
-
-def _across(axis, table):
+def draw(engine_across):
     """Draw the first amplitude that overturns two columns in line over their depth, and others."""
+    figure, axis = sheet(SINGLE, 48)
+    table = engine_across
     first = table.frequency_ratio == table.frequency_ratio.iloc[0]
     chosen = table[first & (table.section == "square")]
     chosen = chosen.drop_duplicates(["structure", "depth_over_width", "mass_ratio", "direction"])
@@ -35,25 +25,4 @@ def _across(axis, table):
     axis.set(xlabel="Depth over width of the columns (–)", ylim=(0.5, 1.5))
     axis.set_ylabel("Amplitude over the\ncolumn's minimum (–)")
     axis.legend(loc="lower right")
-
-
-def _restitution(axis, table):
-    frames = table[table.mass_ratio > 0]
-    frames = frames.assign(ratio=frames.engine / frames.theory)
-    dampings = list(frames.groupby("damping_ratio"))
-    for place, ((_, part), colour) in enumerate(zip(dampings, greys(len(dampings)), strict=True)):
-        low, high = (part.groupby("time_constant").ratio.agg(end) for end in ("min", "max"))
-        times = low.index * 1.07 ** (place - 1.5)  # side by side
-        bars = {"linewidth": 0.9, "elinewidth": 1.3, "color": colour, "markersize": 3.5}
-        axis.errorbar(
-            times,
-            (low + high) / 2,
-            (high - low) / 2,
-            fmt=STYLES[place],
-            label=f"{part.point_restitution.iloc[0]:.2f}",
-            **bars,
-        )
-    axis.axhline(1.0, color=GREY, linewidth=0.6)
-    axis.set(xscale="log", xlabel=r"Time constant of the contact, $p\,\tau$ (–)")
-    axis.set_ylabel(r"$\sqrt{r}$ over that of Eq. (25) (–)")
-    axis.legend(loc="lower left", ncols=2, title="Rebound of a single point (–)")
+    return figure

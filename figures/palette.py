@@ -6,7 +6,7 @@ What has no meaning of its own is drawn in ink and grey, and told apart by marke
 
 from matplotlib.colors import to_hex, to_rgb
 
-from replication.drawing import INK, shades
+from replication.drawing import shades
 
 RGB = tuple[float, float, float]
 
@@ -14,11 +14,6 @@ RGB = tuple[float, float, float]
 def tint(colour: str, share: float) -> str:
     """Return a colour mixed with white: `share` of it, from 0 (white) to 1."""
     return to_hex([share * part + (1.0 - share) for part in to_rgb(colour)])
-
-
-def greys(count: int) -> list[RGB]:
-    """Return greys for an order that is not that of γ, from the lightest to the darkest."""
-    return shades(count, to_rgb("#b4b4b4"), to_rgb(INK))
 
 
 # What happens to one structure.

@@ -183,9 +183,27 @@ rule engine:
         settings=PAPER["engine"],
         structures=PAPER["structures"],
     message:
-        "Structures in a general rigid-body engine (MuJoCo)"
+        "Structures in general rigid-body engines (pymunk, MuJoCo)"
     script:
         "../src/steps/beyond/engine.py"
+
+
+rule colonnades:
+    input:
+        kernel="results/kernel.compiled",
+    output:
+        table="results/tables/colonnades.csv",
+        findings="results/findings/colonnades.json",
+    log:
+        "results/logs/colonnades.log",
+    params:
+        code=code("src/steps/beyond/colonnades.py"),
+        settings=PAPER["colonnades"],
+        structures=PAPER["structures"],
+    message:
+        "Colonnades with one stone per bay (pymunk)"
+    script:
+        "../src/steps/beyond/colonnades.py"
 
 
 rule gaps:

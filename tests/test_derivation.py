@@ -8,6 +8,7 @@ import sympy as sp
 
 from derivation import (
     check_printed,
+    colonnades,
     consequences,
     extensions,
     fixed_mass,
@@ -34,6 +35,7 @@ from derivation.notation import (
     vertical_acceleration,
 )
 from derivation.printed import EQUATIONS, follows
+from steps.beyond.colonnades import colonnade
 from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn
 
 KINDS = {
@@ -184,7 +186,7 @@ EXTENSIONS = [
 def of(module, name, spoil, proof):
     """A result of a module is spoilt wherever a proof takes it."""
     right = getattr(module, name)
-    return (module, name, lambda *arguments: spoil(right(*arguments)), proof)
+    return (module, name, lambda *args, **kwargs: spoil(right(*args, **kwargs)), proof)
 
 
 WRONG = [
@@ -198,6 +200,21 @@ WRONG = [
             (gamma, "fixed_mass_lowers_the_uplift_acceleration"),
             (_CAP, "fixed_mass_rocks_as_one_column"),
         )
+    ),
+    *(
+        of(colonnades, name, lambda value: value * (1 + gamma), proof)
+        for name, proof in (
+            ("lever_of", "stone_bears_between_axis_and_corner"),
+            ("stone_tangent", "stones_lower_the_uplift_acceleration"),
+            ("stone_motion", "stones_leave_the_frequency_parameter"),
+            ("stone_restitution", "stones_change_the_loss_at_an_impact"),
+        )
+    ),
+    of(
+        consequences,
+        "restitution_within",
+        lambda root: root.subs(consequences._within, 1 / consequences._within),
+        "impulses_inside_the_corners_lose_less",
     ),
     of(consequences, "size_ratio", lambda ratio: 1 / ratio, "size_grows_to_a_limit"),
     of(consequences, "quadratic_terms", lambda t: (t[0], 2 * t[1]), "quadratic_terms_cancel"),
@@ -233,6 +250,24 @@ def values(body):
         half_depth: body.cap_depth / 2,
         I_b: spin,
     }
+
+
+@pytest.mark.parametrize("ratio", [0.1, 4.0])
+@pytest.mark.parametrize("columns", [3, 5])
+def test_colonnade_of_the_step_follows_the_derivation(ratio, columns):
+    column, width = Column(0.01, 3.0), 5.0
+    given = {R: column.size, alpha: column.slenderness, gamma: ratio, colonnades.span: width}
+    half = 0.01
+    ends = [(-half, width, True), *[(0, width, False)] * (columns - 3), (0, width + half, False)]
+    after = [float(colonnades.lever_of(x, y, covers=z).subs(given)) for x, y, z in ends]
+    block = colonnade(column, ratio, columns, width)
+    mean = given | {colonnades.lever: sum(after) / len(after)}
+    tangent = float(colonnades.stone_tangent().subs(mean))
+    assert block.uplift_acceleration == pytest.approx(tangent, rel=1e-12)
+    square = sum(x * (x + y) for x, y in zip(after, after[::-1], strict=True)) / len(after)
+    mean[colonnades.lever_before] = square / mean[colonnades.lever] - mean[colonnades.lever]
+    loss = 1.0 - float(colonnades.stone_restitution().subs(mean))
+    assert 1.0 - block.restitution == pytest.approx(loss, rel=1e-4)  # of slender columns
 
 
 @pytest.mark.parametrize("slenderness", [0.05, 0.165, 0.6])

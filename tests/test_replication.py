@@ -288,7 +288,7 @@ def test_mistake_in_a_config_is_named_with_file_and_value(tmp_path, old, new, me
 @pytest.mark.parametrize(
     ("path", "content", "message"),
     [
-        ("engine.restitution.frames", {"tall": [1.0]}, "engine.caps: expected bridge, tall, tem"),
+        ("engine.across.structure", "tall", "engine.caps: expected bridge, tall, temple"),
         ("spectra.mass_ratios", [1.0, 0.5], "is [1.0, 0.5]; expected numbers that rise"),
         ("motions.fewer", 501, "motions.fewer: expected at most 500"),
         ("break_even.velocities", [0.8], "break_even.velocities: expected 0.6 among them"),

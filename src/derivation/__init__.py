@@ -2,7 +2,7 @@
 
 mechanics  geometry, balances, energies and impulses of a cap beam on N columns  ─►  θ̈, √r, R̂/R
 printed    the equations in our copy of the paper, what each follows from, and whether it does
-consequences, fixed_mass, extensions, reversals, guarantee  ─►  theorems
+consequences, fixed_mass, extensions, colonnades, reversals, guarantee  ─►  theorems
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import inspect
 from typing import NamedTuple
 
-from derivation import consequences, extensions, fixed_mass, guarantee, reversals
+from derivation import colonnades, consequences, extensions, fixed_mass, guarantee, reversals
 from derivation.printed import PrintedCheck, check_printed
 
 __all__ = ["PrintedCheck", "Theorem", "check_printed", "theorems"]
@@ -19,6 +19,7 @@ MODULES = {
     consequences: "paper",
     fixed_mass: "paper",
     extensions: "extensions",
+    colonnades: "colonnades",
     reversals: "reversals",
     guarantee: "guarantee",
 }

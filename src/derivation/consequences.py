@@ -13,13 +13,16 @@ import sympy as sp
 from derivation.mechanics import (
     LOADS,
     OF_TWO,
+    RECTANGULAR,
     RECTANGULAR_OF_TWO,
+    cap_contact,
     cap_force,
     centre,
     column_motion,
     column_restitution,
     equation_of_motion,
     frame_motion,
+    jump,
     kinetic_energy,
     lagrange_equation,
     moment,
@@ -28,6 +31,7 @@ from derivation.mechanics import (
     rate,
     restitution,
     size_ratio,
+    solved,
     tangent_form,
     uplift_acceleration,
 )
@@ -40,6 +44,7 @@ from derivation.notation import (
     F_z1,
     F_z2,
     I_o,
+    N,
     R,
     Side,
     acceleration,
@@ -55,6 +60,8 @@ from derivation.notation import (
     read,
     vanishes,
     velocity,
+    velocity_after,
+    velocity_before,
 )
 from derivation.printed import EQUATIONS, frame
 
@@ -258,4 +265,32 @@ def heavy_cap_beam_nearly_caps_the_base_shear() -> bool:
     stated = 1 - sp.Rational(3, 4) * sp.cos(alpha) ** 2, sp.sin(alpha) ** 2
     return bool(falls) and all(
         sp.simplify(end - limit) == 0 for end, limit in zip(ends, stated, strict=True)
+    )
+
+
+# Impulses inside of the corners -------------------------------------------------------------------
+
+_within = sp.Symbol("kappa", positive=True)  # where they act, from the axis, over b
+
+
+def restitution_within() -> sp.Expr:
+    """√r of N columns if the impulses of an impact act κ b from the axes, at base and top."""
+    column, cap = (jump(POSITIVE, p(NEGATIVE), p(POSITIVE)) for p in (centre, cap_contact))
+    arm = sp.Matrix([-_within * R * sp.sin(alpha), R * sp.cos(alpha)])
+    spin = (I_o - m_c * R**2) * (velocity_after - velocity_before)
+    balance = N * (m_c * moment(arm, column) + spin) + m_b * moment(2 * arm, cap)
+    rectangular = sp.expand_trig(balance).subs(RECTANGULAR)
+    return solved(rectangular, velocity_after) / velocity_before
+
+
+def impulses_inside_the_corners_lose_less() -> bool:
+    """√r rises from that of Eq. (25), if impulses act at the corners, as they move to the axes.
+
+    It falls with κ, and nothing is lost for κ = 0.
+    """
+    ratio = restitution_within()
+    return bool(
+        is_identically_zero(ratio.subs(_within, 1) - restitution(), POSITIVE)
+        and sp.factor(sp.diff(tangent_form(ratio), _within)).is_negative
+        and sp.simplify(ratio.subs(_within, 0)) == 1
     )

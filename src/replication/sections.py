@@ -130,7 +130,6 @@ SHARED["pulse"] = section("shape amplitude period")
 SHARED["pulses"] = Items[section("shape frequency_ratio")]
 SHARED["bootstrap"] = section("seed resamples confidence")
 SHARED["checks"] = Items[dict[Literal["time_step", "friction"], Positive]]
-FRAMES = dict[StructureName, Items[MassRatio]]
 
 
 class Consistent(Section):
@@ -139,7 +138,12 @@ class Consistent(Section):
     @model_validator(mode="after")
     def consistent(self: Any) -> Any:
         engine, motions, spectra = self.engine, self.motions, self.spectra
-        frames = {*engine.restitution.frames, *engine.outcomes.frames, engine.across.structure}
+        frames = {
+            entry.structure
+            for part in (engine.restitution, engine.outcomes)
+            for entry in part.frames
+        }
+        frames |= {engine.across.structure}
         faults = {
             "structures: expected temple, trilith": not {"temple", "trilith"} <= {*self.structures},
             f"engine.caps: expected {', '.join(sorted(frames))}": not frames <= {*engine.caps},
@@ -256,21 +260,28 @@ Paper = section(
     designers=section("structure mass_ratios velocities"),
     engine=section(
         caps=dict[StructureName, CapBeam],
-        restitution=section("lean damping_ratios time_constants", frames=FRAMES),
-        outcomes=section(
-            "friction time_step pulses lean",
-            frames=FRAMES,
-            factors=Items[Positive],
-            contacts=section(
-                **dict.fromkeys(("no rebound", "rebound"), section("time_constant damping_ratio"))
-            ),
+        restitution=section(
+            "lean time_step friction",
+            frames=Items[section("structure mass_ratios", impacts=Count)],
         ),
+        outcomes=section(
+            "pulses time_step friction",
+            frames=Items[section("structure mass_ratios")],
+            factors=Items[Positive],
+        ),
+        mujoco=section("structure mass_ratio time_step friction"),
         across=section(
             "structure shape depths time_step friction checks oblique",
             mass_ratios=Rising[Positive],
             frequency_ratios=Items[Positive],
             step=Positive,
         ),
+    ),
+    colonnades=section(
+        "structure cap pulses slow near resolution time_step friction checks",
+        columns=Annotated[int, Field(ge=3, le=20, strict=True)],
+        gap=Positive,
+        mass_ratios=Rising[Positive],
     ),
     gaps=section(
         "cap depths seed duration time_step friction checks draws ramp rocking",

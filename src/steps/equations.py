@@ -53,6 +53,12 @@ def findings(equations, theorems):
         equations.id.str.replace(VARIANT, "", regex=True), sort=False
     ):
         results[name] = as_printed_or_meant(forms)
+    loses_less = results["impulses_inside_the_corners_lose_less"]["holds"]
+    results["maximum_restitution"] = truth(
+        not loses_less,
+        holds_when=loses_less,
+        condition="the impulses of an impact act at the corners",
+    )
     return results
 
 

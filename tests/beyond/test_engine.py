@@ -1,7 +1,6 @@
-"""The engine in limits whose answer is known without it, and findings that break."""
+"""The engines in limits whose answer is known without them, and findings that break."""
 
 import math
-from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -10,9 +9,11 @@ import pytest
 from scipy.stats import binom, norm
 
 import topheavy as th
-from steps.beyond import engine, gaps, test_plan
-from steps.beyond.rigid_bodies import LOOK, Bodies, motion, overturns, released
-from tests.cases import CONFIG
+from steps.beyond import colonnades, engine, gaps, rigid_bodies, stones, test_plan
+from steps.beyond.inclinations import free_rocking, overturn
+from steps.beyond.rigid_bodies import LOOK, Bodies, motion, overturns
+from steps.beyond.stones import BEAM, HINGED, OPEN, Stones
+from tests.cases import COLUMN, CONFIG
 
 TRILITH, PIER = th.Column(0.11, 0.40), th.Column(0.75, 3.50)
 LINTEL, DECK = th.Cap(span=0.80, half_depth=0.11), th.Cap(span=20.0, half_depth=1.0)
@@ -21,64 +22,114 @@ CASES = {
     "trilith": (TRILITH, 0.434, LINTEL),
     "bridge": (PIER, 2.0, DECK),
 }
+ENGINES = {"MuJoCo": rigid_bodies, "pymunk": stones}
 
 
-def planar(name, step=4e-4, **properties):
+def in_engine(name, code, step=4e-4):
+    """A structure in its plane, by its time step over 1/p."""
     column, gamma, cap = CASES[name]
-    return engine.planar(th.RockingFrame(column, gamma), cap, step, **properties)
+    if code == "MuJoCo":
+        spec = {"time_step": step, "friction": 5.0}
+        return engine.planar(th.RockingFrame(column, gamma), cap, spec)
+    return Stones(column, gamma, cap, step / column.frequency_parameter)
 
 
+def seconds(rig):
+    return getattr(rig, "seconds", rig.time_step)
+
+
+@pytest.mark.parametrize("code", ENGINES)
 @pytest.mark.parametrize("name", CASES)
-def test_structure_at_rest_stays_at_rest(name):
-    rig = planar(name)
-    angles = released(rig, 0.0, 1000 * rig.seconds)
+def test_structure_at_rest_stays_at_rest(name, code):
+    rig = in_engine(name, code)
+    angles = ENGINES[code].released(rig, 0.0, 1000 * seconds(rig))
     assert np.abs(angles).max() < 1e-4 * rig.column.slenderness
 
 
+@pytest.mark.parametrize("code", ENGINES)
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_first_impact_is_that_of_theory(name, sign):
+def test_released_structure_has_the_impact_and_the_restitution_of_theory(name, sign, code):
     column, gamma, _ = CASES[name]
-    rig, rotation = planar(name), sign * 0.5 * column.slenderness
-    response = th.simulate(th.RockingFrame(column, gamma), rotation=rotation, samples=2)
-    impact = response.impact_times[0]
-    angles = released(rig, rotation, 1.1 * impact)
-    found = rig.seconds * np.argmax(sign * angles <= 0.0)
-    assert found == pytest.approx(impact, rel=1e-3)
+    rig, rotation = in_engine(name, code), sign * 0.5 * column.slenderness
+    frame = th.RockingFrame(column, gamma)
+    first, second = th.simulate(frame, rotation=rotation, samples=2).impact_times[:2]
+    angles = sign * ENGINES[code].released(rig, rotation, second)
+    time, roots = free_rocking(angles, seconds(rig), column)
+    assert time == pytest.approx(first, rel=1e-3)
+    assert roots[0] == pytest.approx(frame.restitution, rel=2e-3)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_ground_that_accelerates_forward_tilts_it_back(sign):
     pulse = th.Pulse("constant", sign * 1.5 * TRILITH.uplift_acceleration, math.pi / 0.1)
-    *_, (_, last) = motion(planar("column"), pulse.excitation, 0.1, look=1)
     expected = th.simulate(TRILITH, pulse, duration=0.1, samples=2).rotation[-1]
+    *_, (_, last) = motion(in_engine("column", "MuJoCo"), pulse.excitation, 0.1, look=1)
     assert math.asin(last[0, 0, 2]) == pytest.approx(expected, rel=0.05)
+    *_, (_, last) = stones.motion(in_engine("column", "pymunk"), pulse.excitation, 0.1, look=1)
+    assert last[0] == pytest.approx(expected, rel=0.05)
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_contact_without_rebound_has_the_restitution_of_theory(name):
-    column, gamma, _ = CASES[name]
-    frame = th.RockingFrame(column, gamma)
-    measured = engine.restitution_of(planar(name), frame, 0.5)
-    assert measured == pytest.approx(frame.restitution, rel=2e-3)
+def test_free_rocking_of_a_history_that_is_known():
+    response = th.simulate(COLUMN, rotation=0.08, samples=40_000)
+    spacing = response.time[1]
+    time, roots = free_rocking(response.rotation, spacing, COLUMN)
+    assert time == pytest.approx(response.impact_times[0], rel=1e-5)
+    assert roots[:2] == pytest.approx([COLUMN.restitution] * 2, rel=1e-5)
 
 
-@pytest.mark.parametrize("ratio", [0.1, 0.7, 1.0])
-def test_a_point_bounces_as_spring_and_damper_say(ratio):
-    rig = planar("column", 6e-4 * ratio / 64.0, time_constant=6e-4, damping_ratio=ratio)
-    model = rig.model()
-    model.opt.gravity[:] = 0.0
-    data = mujoco.MjData(model)
-    data.qpos[:] = rig.pose()
-    data.qvel[1] = -1.0
-    mujoco.mj_step(model, data, math.ceil(120e-4 / rig.time_step))
-    assert data.qvel[1] == pytest.approx(engine.point_restitution(ratio), rel=0.03)
+@pytest.mark.parametrize(
+    ("inclined", "falls"),
+    [
+        ([0.1, 1.1], True),
+        ([0.1, 0.0, 0.1, 0.0, 1.1], False),  # it has returned twice after the pulse
+        ([0.1, 0.0, 0.1, 1.1], True),
+        ([0.0] * 12 + [1.1], False),  # it has come to rest
+    ],
+)
+def test_outcome_of_inclinations(inclined, falls):
+    pulse = th.Pulse("half-sine", 0.3, math.pi / 0.05)
+    looks = [(0.1 * number, angle) for number, angle in enumerate(inclined, 1)]
+    assert overturn(looks, COLUMN, pulse) is falls
 
 
+@pytest.mark.parametrize("code", ENGINES)
 @pytest.mark.parametrize("factor", [0.9, 1.1])
-def test_long_push_overturns_from_uplift_on(factor):
+def test_long_push_overturns_from_uplift_on(factor, code):
     pulse = th.Pulse("constant", factor * TRILITH.uplift_acceleration, math.pi / 2.0)
-    assert overturns(planar("column", 8e-4), pulse) is (factor > 1.0)
+    rig = in_engine("column", code, 8e-4)
+    assert ENGINES[code].overturns(rig, pulse) is (factor > 1.0)
+
+
+@pytest.mark.parametrize(("joints", "uplift"), [(BEAM, 1.0), (OPEN, 0.858), (HINGED, 1.0)])
+@pytest.mark.parametrize("factor", [0.97, 1.03])
+def test_joints_decide_at_which_push_a_colonnade_uplifts(joints, uplift, factor):
+    rig = Stones(COLUMN, 4.0, th.Cap(5.0, 0.5), 2e-3, columns=5, joints=joints, gap=0.02)
+    push = factor * uplift * COLUMN.uplift_acceleration
+    pulse = th.Pulse("constant", push, math.pi / 6.0)
+    assert stones.overturns(rig, pulse) is (factor > 1.0)
+
+
+@pytest.mark.parametrize(
+    ("module", "package", "message"),
+    [
+        ("3.17.0", "4.0.1", "the module mujoco is 3.17.0, and the installed mujoco-core is 4.0.1"),
+        ("4.0.0", "4.0.0", "MuJoCo is 4.0.0"),
+        ("3.12.1", "3.12.1", "expected mujoco-core 4.0.1 or newer"),
+    ],
+)
+def test_another_or_an_older_mujoco_stops_the_step(monkeypatch, module, package, message):
+    monkeypatch.setattr(mujoco, "__version__", module)
+    monkeypatch.setattr(rigid_bodies, "version", lambda _: package)
+    with pytest.raises(SystemExit, match=message):
+        rigid_bodies.checked_version()
+
+
+@pytest.mark.parametrize("number", ["4.0.1", "4.1.0", "5.0.0rc1"])
+def test_mujoco_is_named_with_its_version(monkeypatch, number):
+    monkeypatch.setattr(mujoco, "__version__", number)
+    monkeypatch.setattr(rigid_bodies, "version", lambda _: number)
+    assert rigid_bodies.checked_version() == f"MuJoCo {number}"
 
 
 STACK = th.FixedMassColumn(TRILITH, 0.434, cap_depth=0.22)
@@ -109,18 +160,12 @@ def test_motion_keeps_the_rotations_of_each_look():
     assert turned[0][0, 2, 2] > 0.999 > turned[-1][0, 2, 2]
 
 
-def test_a_time_step_that_softens_the_contact_is_refused():
-    with pytest.raises(ValueError, match=r"time_step is .* half the contact's time constant"):
-        replace(planar("column", time_constant=1.6e-3), time_step=1.0)
-
-
 RESTITUTION = pd.DataFrame(
-    [(1.0, 0.003, 0.1, 0.9), (1.0, 0.1, 0.1, 0.9), (1.0, 0.003, 0.7, 0.9)],
-    columns=["mass_ratio", "time_constant", "point_restitution", "engine"],
+    [(stones.VERSION, 1.0001, 0.9001), ("MuJoCo 4.0.1", 1.0, 0.9)],
+    columns=["solver", "frequency_parameter_over_theory", "engine"],
 ).assign(theory=0.9)
-OUTCOMES = pd.DataFrame(
-    [("no rebound", True, True, True), ("rebound", True, True, True)],
-    columns=["contact", "engine", "theory", "theory_with_rebound"],
+OUTCOMES = pd.DataFrame([(0.99, True), (1.03, True)], columns=["factor", "engine"]).assign(
+    theory=True
 )
 ACROSS = pd.DataFrame(
     [
@@ -137,24 +182,22 @@ ACROSS = pd.DataFrame(
 
 
 @pytest.mark.parametrize(
-    ("row", "holds", "holds_when"), [(None, True, True), (1, False, True), (0, False, False)]
+    ("name", "changed"), [("engine", 0.902), ("frequency_parameter_over_theory", 0.999)]
 )
-def test_a_contact_that_gives_back_more_than_theory_breaks_the_maximum(row, holds, holds_when):
-    table = RESTITUTION.assign(engine=np.where(RESTITUTION.index == row, 0.95, 0.9))
-    found = engine.findings(table, OUTCOMES, ACROSS)["maximum_restitution"]
-    assert (found["holds"], found["holds_when"]) == (holds, holds_when)
-    assert found["lowest_with_rebound"] == 0.0
-    assert (found["apart_without_rebound"] > 0.0) == (row == 0)
+def test_free_rocking_apart_from_theory_stops_the_step(name, changed):
+    table = RESTITUTION.assign(**{name: [changed, 1.0]})
+    with pytest.raises(SystemExit, match="pymunk: p̂ is"):
+        engine.findings(table, OUTCOMES, ACROSS)
 
 
 @pytest.mark.parametrize(
-    ("row", "holds", "holds_when"), [(None, True, True), (1, False, True), (0, False, False)]
+    ("row", "holds", "holds_when"), [(None, True, True), (0, False, True), (1, False, False)]
 )
 def test_one_other_outcome_breaks_the_same_outcomes(row, holds, holds_when):
     table = OUTCOMES.assign(engine=OUTCOMES.index != row)
     found = engine.findings(RESTITUTION, table, ACROSS)["same_verdicts"]
     assert (found["holds"], found["holds_when"]) == (holds, holds_when)
-    assert found["apart"] == found["apart_that_survive"] == (row is not None)
+    assert found["agree"] == 2 - (row is not None)
 
 
 @pytest.mark.parametrize(
@@ -165,6 +208,47 @@ def test_a_frame_as_strong_across_as_its_column_breaks_the_plane(row, changed, h
     table = ACROSS.assign(engine=ACROSS.engine.where(ACROSS.index != row, changed))
     found = engine.findings(RESTITUTION, OUTCOMES, table)["across_the_plane"]
     assert found["holds"] is holds
+
+
+STONES = pd.DataFrame(
+    [
+        (OPEN, 1.0, "one-sine", 2.0, 0.92),
+        (OPEN, 1.0, "one-sine", 4.0, 1.09),
+        (OPEN, 1.0, "constant", 0.3, 0.89),
+        (OPEN, 4.0, "one-sine", 2.0, 0.90),
+        (OPEN, 4.0, "constant", 0.3, 0.86),
+        (HINGED, 1.0, "one-sine", 2.0, 1.03),
+        (OPEN, 1.0, "one-sine", 2.0, 0.92),
+    ],
+    columns=["joints", "mass_ratio", "shape", "frequency_ratio", "theory"],
+)
+
+
+@pytest.mark.parametrize(
+    ("row", "changed", "holds"),
+    [(1, 1.2, True), (0, 1.01, False), (2, 1.01, False), (4, 0.9, False)],
+)
+def test_colonnades_that_gain_break_the_finding(row, changed, holds):
+    table = STONES.assign(theory=STONES.theory.where(STONES.index != row, changed))
+    table = table.assign(engine=table.theory)
+    found = colonnades.findings(table, {"slow": 3.0})["stones_of_single_bays"]
+    assert found["holds"] is holds
+    assert found["hinged"] == 1.03
+
+
+def test_colonnade_whose_engine_is_apart_stops_the_step():
+    table = STONES.assign(engine=STONES.theory + 0.04)
+    with pytest.raises(SystemExit, match="theory differ by"):
+        colonnades.findings(table, {"slow": 3.0})
+
+
+def test_colonnade_of_the_engine_overturns_from_the_minimum_in_theory():
+    pulses = CONFIG["colonnades"]["pulses"][:1]
+    settings = CONFIG["colonnades"] | {"mass_ratios": [1.0], "pulses": pulses, "checks": []}
+    settings |= {"time_step": 2e-3, "resolution": 0.02}
+    table = colonnades.compute(settings, CONFIG["structures"])
+    assert table.theory.tolist() == pytest.approx([0.923, 1.034], abs=2e-3)
+    assert table.engine.tolist() == pytest.approx(table.theory.tolist(), abs=0.02)
 
 
 SETTINGS = {"time_step": 1.6e-3, "friction": 0.6, "rocking": 1.0, "draws": 2}

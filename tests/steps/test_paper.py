@@ -63,7 +63,16 @@ def findings(rule, tables, **changes):
 
 KNOWN = {
     "statements": {"identical_response"},
-    "equations": {"eq9", "eq19", "eq20", "eq21", "eq22", "text_p_hat", "text_p_hat_trilith"},
+    "equations": {
+        "eq9",
+        "eq19",
+        "eq20",
+        "eq21",
+        "eq22",
+        "text_p_hat",
+        "text_p_hat_trilith",
+        "maximum_restitution",
+    },
 }
 
 

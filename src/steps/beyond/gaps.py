@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, run, truth
-from steps.beyond.rigid_bodies import Bodies, motion
+from steps.beyond.rigid_bodies import Bodies, checked_version, motion
 from topheavy import STANDARD_GRAVITY, Cap, Column
 
 ROTATIONS = {"in_plane": (0, 2), "yaw": (1, 0)}  # sines, in the matrix
@@ -14,7 +14,7 @@ ROTATIONS = {"in_plane": (0, 2), "yaw": (1, 0)}  # sines, in the matrix
 
 def compute(settings, structures, trilith):
     """Return the largest rotations of a column (degrees) in the last two thirds of each draw."""
-    column, rows = Column(**structures["trilith"]), []
+    column, rows, version = Column(**structures["trilith"]), [], checked_version()
     cap = Cap(settings["cap"]["span"], 0.5 * settings["cap"]["depth"])
     omega = 2.0 * math.pi * trilith["table_frequency"]
     peak = trilith["table_amplitude"] * omega**2 / STANDARD_GRAVITY
@@ -35,7 +35,7 @@ def compute(settings, structures, trilith):
             late = np.abs(turned[len(turned) // 3 :]).max(axis=(0, 1))
             largest = {name: math.degrees(math.asin(late[at])) for name, at in ROTATIONS.items()}
             rows.append({"depth": depth, "gap_mm": gap, **solver, "draw": draw} | largest)
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows).assign(solver=version)
 
 
 def findings(gaps, settings):

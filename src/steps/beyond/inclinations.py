@@ -1,0 +1,51 @@
+"""What the inclinations of columns in a rigid-body engine say: outcomes, free rocking."""
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from topheavy import Column, Pulse
+
+OVERTURNED = math.pi / 3  # rad, from where no pulse brings a column back; the cap is still aloft
+WAIT, REST = 14.0, 0.5  # over p: the longest wait for an outcome, and how long rest has to last
+UPRIGHT = 0.05  # inclination normalised by α
+SMALLEST_PEAK = 0.02  # of a bounce whose loss counts, normalised by α
+
+
+def overturn(looks: Iterable[tuple[float, float]], column: Column, pulse: Pulse) -> bool:
+    """Return whether a pulse inclines a column by π/3, from times (s) and largest inclinations.
+
+    Bodies survive that rest after the pulse, that return to upright twice without it, as each
+    impact takes energy, and that still rock 14/p after it.
+    """
+    p, returns, since = column.frequency_parameter, 0, None
+    for time, inclination in looks:
+        if inclination > OVERTURNED:
+            return True
+        if time > pulse.duration + WAIT / p:
+            return False
+        if time > pulse.duration:
+            if inclination >= UPRIGHT * column.slenderness:
+                since = None
+            elif since is None:
+                returns, since = returns + 1, time
+            if returns > 1 or (since is not None and time - since > REST / p):
+                return False
+    return False
+
+
+def free_rocking(rotations: np.ndarray, time_step: float, column: Column) -> tuple[float, list]:
+    """Return the time of the first impact (s), and √r of each, after a release from rest at θ > 0.
+
+    Energy is kept between impacts, so that √r is the root of the ratio of the rise of the centres
+    of gravity at the peak after an impact to that before it.
+    """
+    b, h = column.half_width, column.half_height
+    impacts = np.flatnonzero(rotations[1:] * rotations[:-1] < 0.0) + 1
+    after = impacts[0]
+    share = rotations[after - 1] / (rotations[after - 1] - rotations[after])
+    peaks = np.array([np.abs(part).max() for part in np.split(rotations, impacts)])
+    peaks = peaks[peaks > SMALLEST_PEAK * column.slenderness]  # some bounce in few time steps
+    rises = b * np.sin(peaks) - h * (1.0 - np.cos(peaks))
+    return (after - 1 + share) * time_step, np.sqrt(rises[1:] / rises[:-1]).tolist()
