@@ -62,6 +62,7 @@ MEANINGLESS = {  # what the key is changed to, and what follows in results/
     "spectra.slendernesses": ("report", [5.0], None),
     "motions.scenarios": ("report", CONFIG["motions"]["scenarios"] * 2, None),
     "gaps.checks": ("supplement", [{"friction": 5.0}], None),
+    "colonnades.checks": ("supplement", [{"friction": 0.7}], None),
     "engine.across.checks": ("supplement", [{"time_step": 8e-4}], None),
 }
 
