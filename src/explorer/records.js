@@ -134,9 +134,9 @@ function doubts({ step, samples, peak, unit }) {
     velocity += (GRAVITY * step * (samples[k - 1] + samples[k])) / 2;
     fastest = Math.max(fastest, Math.abs(velocity));
   }
-  const sizes = samples.map(Math.abs), at = sizes.indexOf(peak), behind = samples.findIndex((a, k) => k > at && a !== samples[at]);
+  const sizes = samples.map(Math.abs), at = sizes.indexOf(peak), run = [...samples, NaN].slice(at).findIndex((a) => a !== samples[at]);
   return [
-    [Math.max(sizes[at - 1] ?? 0, sizes[behind] ?? 0) < peak / 2, `both neighbours of its peak, sample ${at + 1} of ${sizes.length}, are below half of it: does it stand for missing data?`],
+    [run < 4 && Math.max(sizes[at - 1] ?? 0, sizes[at + run] ?? 0) < peak / 2, `both neighbours of its peak, sample ${at + 1} of ${sizes.length}, are below half of it: does it stand for missing data?`],
     [peak < SMALLEST, `its peak is ${brief(peak)} g, and few peaks of interest are below ${SMALLEST} g: is its unit another?`],
     [Math.abs(velocity) > 0.3 * fastest, `its velocity at the end is ${brief(velocity)} m/s, with a peak of ${brief(fastest)} m/s: is its baseline not corrected?`],
     [fastest > LARGEST.velocity, `its velocity reaches ${brief(fastest)} m/s, and few exceed ${LARGEST.velocity} m/s: is its unit another?`],

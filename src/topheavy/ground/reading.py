@@ -18,29 +18,43 @@ from numpy.typing import NDArray
 from topheavy import checks
 from topheavy.ground.records import MAX_RECORDED, UNITS, Record, acceleration_in_g
 
-OTHER_READERS = """\
-from gmprocess.io.read import read_data  # pip install gmprocess
+_NAMED = """\
+stats, name = trace.stats, f"{trace.stats.standard.source_file} {trace.stats.channel}"
+unit, start = stats.standard.units, stats.starttime.timestamp
+record = Record(stats.delta, trace.data, name, unit=unit, start=start)
+"""
+READERS = {
+    "gmprocess": f"""\
+from gmprocess.io.read import read_data  # pip install gmprocess, in an environment of its own
 
 trace = read_data("FILE")[0][0].detrend("demean")
-unit, start = trace.stats.standard.units, trace.stats.starttime.timestamp
-record = Record(trace.stats.delta, trace.data, trace.id, unit=unit, start=start)
-import obspy  # or, of K-NET and KiK-net: pip install obspy
+{_NAMED}""",
+    "RENADIC": f"""\
+from gmprocess.io.renadic.core import read_renadic  # pip install gmprocess, likewise
+
+trace = read_renadic("FILE")[0][0].detrend("demean")
+{_NAMED}""",
+    "obspy": """\
+import obspy  # pip install obspy
 
 trace = obspy.read("FILE").merge()[0].detrend("demean")  # refuses a gap
 samples, start = trace.data * trace.stats.calib, trace.stats.starttime.timestamp
 record = Record(trace.stats.delta, samples, trace.id, unit="m/s2", start=start)
-"""
+""",
+}
+"""Lines that read a format of a national network."""
 
 NETWORKS = {
-    "K-NET": r"Origin Time",
-    "ESM": r"EVENT_NAME:",
-    "AFAD": r"STRONG GROUND MOTION RECORDS OF TURK",
-    "COSMOS": r".*\(Format v",
-    "SMC": r"\d (UN)?CORRECTED ACCELEROGRAM",
-    "GeoNet": r"(Un)?corrected accelerogram.*\nSite ",
-    "CSMIP, RENADIC or USC": r"(Un)?corrected accelerogram",
+    "K-NET or KiK-net": (r"Origin Time", "obspy"),
+    "ESM": (r"EVENT_NAME:", "gmprocess"),
+    "AFAD": (r"STRONG GROUND MOTION RECORDS OF TURK", "gmprocess"),
+    "COSMOS": (r".*\(Format v", "gmprocess"),
+    "SMC (of a free field)": (r"\d (UN)?CORRECTED ACCELEROGRAM", "gmprocess"),
+    "GeoNet": (r"(Un)?corrected accelerogram.*\nSite ", "gmprocess"),
+    "RENADIC": (r"(?s)Uncorrected accelerogram.*RENADIC", "RENADIC"),
+    "CSMIP (of a known azimuth) or USC": (r"(Un)?corrected accelerogram", "gmprocess"),
 }
-"""How the first lines of their files begin; the first that fits counts."""
+"""How the first lines of their files begin, the first that fits, and the lines that read them."""
 
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 """How such a file begins, for example "Unicode text" of Excel."""
@@ -107,7 +121,7 @@ def read_record(
         text = raw.decode("cp1252", errors="replace")
     lines = re.sub("\r\n?", "\n", text).split("\n")
     head = "\n".join(lines[:10])
-    network = next((name for name, begin in NETWORKS.items() if re.match(begin, head, re.I)), None)
+    network = next((name for name in NETWORKS if re.match(NETWORKS[name][0], head, re.I)), None)
     try:
         if ending == ".at2" and (unit is None or _COUNT.search(head) or _OLD.search(head)):
             if column:
@@ -136,8 +150,11 @@ def read_record(
     except (ValueError, csv.Error) as error:
         message = f"{path}: {error}"
         if network or (ending not in (".at2", ".csv") and unit is None):
-            network = network or "a national network"
-            message += f".\nThese lines read a file of {network}:\n\n{OTHER_READERS}"
+            reader = READERS[NETWORKS[network][1] if network else "gmprocess"]
+            message += (
+                f".\nThese lines read a file of {network or 'most national networks'}; for any "
+                f"other, use numpy.loadtxt, then Record(…, unit=…):\n\n{reader}"
+            )
         raise ValueError(message) from None
 
 

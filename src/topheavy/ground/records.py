@@ -236,7 +236,7 @@ def _warn_if_implausible(record: Record, most: float) -> None:
         f"the largest acceleration is {largest:.3g} g, and few peaks of interest are below "
         f"{least:g} g: is its unit another?": 0.0 < largest < least,
         f"both neighbours of the peak, sample {peak} of {samples.size}, are below half of it: does "
-        "it stand for missing data?": beside < 0.5 * largest,
+        "it stand for missing data?": beside < 0.5 * largest and behind - peak < MIN_CLIPPED,
         f"{clipped} samples in turn are equal to the peak: did the instrument reach its range?": (
             clipped >= MIN_CLIPPED
         ),
