@@ -233,6 +233,8 @@ BAD = {  # what the message begins with or has, and what is called
     "'harmonic', which goes on forever": lambda: a_map("harmonic", [1.0], [0.3]),
     "record 'still' has a peak acceleration of 0 g": lambda: a_map(STILL, [1.0], [0.3]),
     "scale_range is (2, 1); expected it to ascend": lambda: lowest(PULSE, (2.0, 1.0), floor=0.1),
+    "lacks scale_range and floor; expected": lambda: th.lowest_overturning(COLUMN, PULSE),
+    "lacks floor; expected": lambda: lowest(PULSE, (0.0, 1.0)),
     "scale_range begins at -1;": lambda: lowest(PULSE, (-1.0, 1.0), floor=0.1),
     "floor is 1e-11 of 4.5 to 8": lambda: lowest(PULSE, (4.5, 8.0), floor=1e-11),
     "excitation is 3; expected a Pulse": lambda: lowest(3, (0.0, 1.0), floor=0.1),

@@ -108,9 +108,9 @@ class LowestOverturning:
 def lowest_overturning(
     structure: Structure,
     excitation: Pulse | Record,
-    scale_range: tuple[float, float],
+    scale_range: tuple[float, float] | None = None,
     *,
-    floor: float,
+    floor: float | None = None,
     vertical: Record | None = None,
     scale_vertical: bool = True,
 ) -> LowestOverturning:
@@ -129,7 +129,7 @@ def lowest_overturning(
     structure, excitation, vertical, scale_vertical
         See `overturned_by`.
     scale_range : (float, float)
-        The first and the last factor, not negative.
+        The first and the last factor, not negative. There is no default, as for the floor.
     floor : float
         No wider interval below the result is missed.
 
@@ -139,6 +139,14 @@ def lowest_overturning(
     >>> round(th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3).acceleration, 6)
     0.191798
     """
+    if scale_range is None or floor is None:
+        lacking = " and ".join(
+            ["scale_range"] * (scale_range is None) + ["floor"] * (floor is None)
+        )
+        raise ValueError(
+            f"lowest_overturning lacks {lacking}; expected the factors to search, and the width of "
+            "the narrowest interval that matters: for instance (0.1, 1.0), floor=1e-3"
+        )
     if (first := checked_range(scale_range)[0]) < 0.0:
         raise ValueError(
             f"scale_range begins at {first:.6g}; expected factors from zero on: for the mirrored "
