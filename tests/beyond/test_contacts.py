@@ -24,7 +24,12 @@ def table(**changed):
 
 
 MAPS = pd.DataFrame(
-    {"pressed": [1.0, 0.5], "prevented": 0.2, "prevented_pressed": [0.2, 0.1]}
+    {
+        "slenderness_deg": [5.0, 20.0],
+        "pressed": [1.0, 0.5],
+        "prevented": 0.2,
+        "prevented_pressed": [0.2, 0.1],
+    }
     | {"caused": 0.02, "caused_pressed": [0.02, 0.0]}
 )
 
@@ -44,6 +49,7 @@ def test_case_whose_contacts_part_or_slide_is_named(changed, expected):
         assert found[name]["cases"] == "minimum (column and frame)"
     assert "two_pulses_stay_pressed" in broken(found)
     assert found["maps_pressed"]["value"] == pytest.approx(0.75)
+    assert found["maps_pressed"]["stockiest"] == 0.5
     assert found["maps_caused"]["value"] == pytest.approx(0.5)
 
 

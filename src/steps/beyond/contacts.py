@@ -34,7 +34,7 @@ from topheavy.forces.contacts import Bearing, forces_at, static_shares
 BESIDE = 1e-4  # over a minimum: how far above or below it the motions are
 AGREE = 1e-3  # over the weight: vertical forces by the states of both solvers
 AWAY = 1e-5  # of an impact, over 1/p: closer, its sides are not compared
-SAMPLE = 4  # rows that the plain solver computes again
+SAMPLE = 2  # rows that the plain solver computes again
 TIMES = 400  # of a cell of a map: three times as many change the shares by less than 0.01
 LATER = 1.5  # over the duration of a pulse: the end of these times
 SIDES = "base", "beam"
@@ -305,6 +305,8 @@ def findings(contacts: pd.DataFrame, contacts_maps: pd.DataFrame, settings: dict
         share = whole[name if name == "pressed" else f"{name}_pressed"] / part
         error = math.sqrt(share * (1.0 - share) / (count * part))
         found[f"maps_{name}"] = value(share, error, cells=round(count * part))
+    slender = contacts_maps.groupby("slenderness_deg").pressed.mean()
+    found["maps_pressed"] |= {"most_slender": slender.iloc[0], "stockiest": slender.iloc[-1]}
     return found
 
 

@@ -49,7 +49,7 @@ def minima(settings: Mapping[str, Any]) -> pd.DataFrame:
         print(f"{len(rows)} of {len(labels)} lines of several cycles", flush=True)
     pairs = [((*place, a), (*place, b)) for place in places for a, b in combinations(gammas, 2)]
     while True:
-        fell = {at for pair in pairs if max(fall(*(rows[at] for at in pair))) > 0.0 for at in pair}
+        fell = {at for pair in pairs if any_falls(*(rows[at] for at in pair)) for at in pair}
         coarse = [at for at in labels if at in fell and rows[at].searched == spec["wide"]]
         if not coarse:
             break
@@ -59,6 +59,11 @@ def minima(settings: Mapping[str, Any]) -> pd.DataFrame:
     return pd.DataFrame(
         [(*at, *lowest) for at, lowest in rows.items()], columns=[*PLACE, "mass_ratio", *FOUND]
     )
+
+
+def any_falls(lighter: Lowest, heavier: Lowest) -> bool:
+    """Return whether the minimum falls by one of the three counts."""
+    return any(share > 0.0 for share in fall(lighter, heavier))
 
 
 def one_line(cycles: int, slenderness: float, ratio: float, gamma: float) -> tuple:
@@ -79,7 +84,7 @@ def falls(table: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame:
         for light, heavy in combinations(sorted(found), 2):
             lighter, heavier = found[light], found[heavy]
             counts = fall(lighter, heavier)
-            if max(counts) > 0.0:
+            if any_falls(lighter, heavier):
                 upper = min(heavier.wide_upper, spec["highest"])
                 rows.append(
                     dict(zip(PLACE, place, strict=True))
@@ -157,7 +162,7 @@ def finding(table: pd.DataFrame, made: pd.DataFrame, settings: Mapping[str, Any]
         rows, looser = strict_falls(made, pairs), of_pairs(made, pairs)
         evidence = {"comparisons": compared(table, pairs), "exceptions": len(rows)}
         evidence |= {f"exceptions_{by}": int((looser[by] > 0.0).sum()) for by in Fall._fields[1:]}
-        evidence |= {f"largest_{by}": looser[by].max() for by in Fall._fields[1:] if len(looser)}
+        evidence |= {f"largest_{by}": max([0.0, *looser[by].dropna()]) for by in Fall._fields[1:]}
         evidence["slendernesses"] = rows.slenderness_deg.nunique()
         for _, row in largest(made, pairs).iterrows():
             number = int(row.cycles)
