@@ -12,7 +12,7 @@ import pytest
 from documents.check import REFERENCE
 from replication.step import call
 from steps import allen, equations, parameters, statements, trilith, verification
-from steps.shared import plain
+from steps.shared import plain, steered
 from tests.cases import COLUMN, CONFIG, RECORDS, ROOT, as_written, broken
 from topheavy import Column, RockingFrame, judge, simulate
 
@@ -222,6 +222,15 @@ def test_solver_that_differs_stops_verification(row, change, words):
     given[row].loc[0, change] += 1
     with pytest.raises(SystemExit, match=words):
         verification.findings(*given.values())
+
+
+def test_steered_motions_keep_the_order_within_the_bound_only():
+    kept, lost = (
+        steered.attack(math.radians(20.0), [(0.0, math.inf)], factor, 300, 1)
+        for factor in (1.0, 1.5)
+    )
+    assert kept["order_lost"] == kept["lighter_first"] == 0 < lost["order_lost"]
+    assert kept["samples_beyond_alpha"] > 0
 
 
 def test_sample_of_verification_is_half_at_boundaries():
