@@ -85,7 +85,7 @@ def motions(draw: st.DrawFn, structure: Structure) -> Pulse | Record:
     size = level * draw(edged(0.0, 12.0, *beside)) * draw(st.sampled_from([-1.0, 1.0]))
     if draw(st.booleans()):
         shape = draw(st.sampled_from(sorted(FINITE_SHAPES)))
-        return th.Pulse(shape, size, p * draw(edged(0.2, 30.0, 1.0)))
+        return th.Pulse(shape, size, angular_frequency=p * draw(edged(0.2, 30.0, 1.0)))
     samples = st.one_of(st.floats(-1.0, 1.0), st.sampled_from([0.0, 1.0, 1.0, -1.0, 0.5]))
     values = draw(st.lists(samples, min_size=2, max_size=40))
     return th.Record(draw(st.floats(0.005, 1.0)) / p, size * np.array(values), unit="g")
@@ -188,7 +188,9 @@ def grids(several: list[Any], data: st.DataObject) -> None:
     if isinstance(motion, Pulse):
         omega, sizes = motion.angular_frequency, abs(motion.amplitude) * np.array(factors)
         cells = th.overturning_map(structure, motion.shape, [omega], sizes)
-        each = [th.Pulse(motion.shape, float(size), omega) for size in cells.amplitude]
+        each = [
+            th.Pulse(motion.shape, float(size), angular_frequency=omega) for size in cells.amplitude
+        ]
     else:
         assume(motion.peak_acceleration > 1e-9)
         sizes = motion.peak_acceleration * np.array(factors)

@@ -156,14 +156,16 @@ def peak(flights, omega, amplitude):
 
 
 def ours(tolerance, omega, amplitude):
-    pulse = Pulse("one-sine", amplitude * BLOCK.uplift_acceleration, omega)
+    pulse = Pulse("one-sine", amplitude * BLOCK.uplift_acceleration, angular_frequency=omega)
     return judge(BLOCK, pulse, tolerance=tolerance).peak_rotation / ALPHA
 
 
 def engine_peak(omega, amplitude):
     """Return the peak over α by MuJoCo; NaN if the column overturns."""
     p, highest = ENGINE.column.frequency_parameter, 1.0
-    pulse = Pulse("one-sine", amplitude * ENGINE.column.uplift_acceleration, omega * p)
+    pulse = Pulse(
+        "one-sine", amplitude * ENGINE.column.uplift_acceleration, angular_frequency=omega * p
+    )
     for _, rotation in motion(ENGINE, pulse.excitation, pulse.duration + WAIT / (4.0 * p)):
         highest = min(highest, rotation[0, 2, 2])
         if highest < math.cos(OVERTURNED):
@@ -194,7 +196,9 @@ def dart_peak(omega, amplitude):
         joint.setTransformFromParentBodyNode(dartpy.math.Isometry3(place))
         world.addSkeleton(skeleton)
         skeletons.append(skeleton)
-    pulse = Pulse("one-sine", amplitude * ENGINE.column.uplift_acceleration, omega * p)
+    pulse = Pulse(
+        "one-sine", amplitude * ENGINE.column.uplift_acceleration, angular_frequency=omega * p
+    )
     duration, highest = pulse.duration + WAIT / (4.0 * p), 0.0
     times = (np.arange(math.ceil(duration / ENGINE.seconds)) + 0.5) * ENGINE.seconds
     for push in pulse.excitation(times):
@@ -216,7 +220,7 @@ def landing(solver, omega, amplitude, velocity):
 
 def our_landing(tolerance, omega, amplitude, velocity):
     """Return when a flight first lands, by this library."""
-    pulse = Pulse("one-sine", amplitude * BLOCK.uplift_acceleration, omega)
+    pulse = Pulse("one-sine", amplitude * BLOCK.uplift_acceleration, angular_frequency=omega)
     start = {"rotation": -RELEASE * ALPHA, "velocity": -velocity, "duration": pulse.duration}
     times = simulate(BLOCK, pulse, **start, samples=2, tolerance=tolerance).impact_times
     return times[0] if len(times) else math.inf

@@ -255,7 +255,7 @@ def test_forces_of_every_overturned_response_are_known(ratio):
     """The repetition of a response may end one rounding before or after it lies flat."""
     frame = th.RockingFrame(TEMPLE, ratio)
     for amplitude in np.linspace(0.17, 0.6, 60):
-        pulse = th.Pulse("one-sine", amplitude, 2.5)
+        pulse = th.Pulse("one-sine", amplitude, angular_frequency=2.5)
         forces = th.contact_forces(frame, BAY, th.simulate(frame, pulse, samples=50), pulse)
         assert np.isfinite(forces.vertical.values).any()
 
@@ -290,7 +290,10 @@ def test_frame_without_weight_on_it_has_half_the_force_of_a_column_at_each_base(
 @pytest.mark.parametrize("structure", [TEMPLE, th.RockingFrame(TEMPLE, 0.25)], ids=repr)
 @pytest.mark.parametrize("amplitude", [0.25, 0.32, 0.5])
 def test_extremes_are_met_to_1e_4(structure, amplitude):
-    pulse, cap = th.Pulse("one-sine", amplitude, 3.0), BAY if structure is not TEMPLE else None
+    pulse, cap = (
+        th.Pulse("one-sine", amplitude, angular_frequency=3.0),
+        BAY if structure is not TEMPLE else None,
+    )
     few, many = (
         th.contact_forces(structure, cap, th.simulate(structure, pulse, samples=samples), pulse)
         for samples in (2, 200_000)
@@ -302,18 +305,20 @@ def test_extremes_are_met_to_1e_4(structure, amplitude):
 
 
 def test_forces_until_alpha_end_where_an_overturning_frame_passes_it_for_good():
-    frame, strong = th.RockingFrame(TEMPLE, 1.0), th.Pulse("one-sine", 0.5, 2.5)
+    frame, strong = th.RockingFrame(TEMPLE, 1.0), th.Pulse("one-sine", 0.5, angular_frequency=2.5)
     response = th.simulate(frame, strong, samples=5000)
     forces = th.contact_forces(frame, BAY, response, strong, until_alpha=True)
     last = float(forces.time[np.isfinite(forces.vertical).all("contact")][-1])
     lean = np.interp(last, response.time, np.abs(response.rotation))
     assert response.overturned
     assert lean == pytest.approx(frame.slenderness, rel=1e-4)
-    back = th.simulate(TEMPLE, th.Pulse("one-cosine", 1.0, 8.0))
+    back = th.simulate(TEMPLE, th.Pulse("one-cosine", 1.0, angular_frequency=8.0))
     assert not back.overturned  # whether it passed α or not
-    forces = th.contact_forces(TEMPLE, None, back, th.Pulse("one-cosine", 1.0, 8.0))
+    forces = th.contact_forces(
+        TEMPLE, None, back, th.Pulse("one-cosine", 1.0, angular_frequency=8.0)
+    )
     until = th.contact_forces(
-        TEMPLE, None, back, th.Pulse("one-cosine", 1.0, 8.0), until_alpha=True
+        TEMPLE, None, back, th.Pulse("one-cosine", 1.0, angular_frequency=8.0), until_alpha=True
     )
     assert until.equals(forces)
 

@@ -17,7 +17,7 @@ def test_every_property_holds(monkeypatch, capsys):
 
 @pytest.mark.parametrize("other", [Outcome(True, 0.1, 0), Outcome(False, 0.100003, 0)])
 def test_solvers_that_differ_on_a_decided_outcome_disagree(other):
-    block, pulse = RockingBlock(2.0, 0.2, 0.9), Pulse("constant", 1.0, 6.0)
+    block, pulse = RockingBlock(2.0, 0.2, 0.9), Pulse("constant", 1.0, angular_frequency=6.0)
     one = Outcome(False, 0.1, 0)
     with pytest.raises(AssertionError, match="Outcome"):
         fuzz.agree(block, pulse, lambda *_, **__: one, lambda *_, **__: other)

@@ -15,7 +15,7 @@ from topheavy.bodies.free_rocking import potential
 from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.kernel.history import MAX_FREE_FLIGHT
 
-SHAKEN = th.Pulse("one-sine", 0.5, 9.0)
+SHAKEN = th.Pulse("one-sine", 0.5, angular_frequency=9.0)
 LOSSLESS = BLOCK.with_restitution(1.0)
 LEVEL = BLOCK.uplift_acceleration
 
@@ -38,12 +38,12 @@ def count_all(monkeypatch):
 @pytest.mark.parametrize(
     ("pulse", "rotation"),
     [
-        (th.Pulse("half-sine", 0.1, 4.0), 0.0),  # no uplift
+        (th.Pulse("half-sine", 0.1, angular_frequency=4.0), 0.0),  # no uplift
         (SHAKEN, 0.0),
-        (th.Pulse("one-sine", 0.4, 6.0), 0.1),  # at rest after the forcing
+        (th.Pulse("one-sine", 0.4, angular_frequency=6.0), 0.1),  # at rest after the forcing
         (th.Record(0.1, [0.0, 0.4, *np.zeros(150)]), 0.0),  # at rest before its end
-        (th.Pulse("one-sine", 0.9, 3.0), 0.0),  # overturned
-        (th.Pulse("one-sine", 3.0, 9.0), 0.0),  # overturned under the forcing
+        (th.Pulse("one-sine", 0.9, angular_frequency=3.0), 0.0),  # overturned
+        (th.Pulse("one-sine", 3.0, angular_frequency=9.0), 0.0),  # overturned under the forcing
     ],
 )
 def test_samples_only_look(solve, block, pulse, rotation):
@@ -75,13 +75,19 @@ def test_samples_only_look(solve, block, pulse, rotation):
 @EVERY
 def test_cut_motion_is_judged_by_what_is_left_of_it(solve, block):
     """A one-sine that ends at half its duration is a half-sine, a harmonic after one cycle one."""
-    half, once = th.Pulse("half-sine", 0.5, 9.0), {"duration": SHAKEN.duration, "samples": 50}
+    half, once = (
+        th.Pulse("half-sine", 0.5, angular_frequency=9.0),
+        {"duration": SHAKEN.duration, "samples": 50},
+    )
     cut, whole = solve(block, SHAKEN, duration=half.duration), solve(block, half)
     assert cut.time[-1] == pytest.approx(half.duration, rel=1e-12)
     assert cut.overturned == whole.overturned
     assert cut.peak_rotation == pytest.approx(whole.peak_rotation, rel=1e-8)
     assert cut.peak_rotation > 1.01 * np.max(np.abs(cut.rotation))  # reached after the history
-    one, other = (solve(block, th.Pulse(s, 0.5, 9.0), **once) for s in ("harmonic", "one-sine"))
+    one, other = (
+        solve(block, th.Pulse(s, 0.5, angular_frequency=9.0), **once)
+        for s in ("harmonic", "one-sine")
+    )
     np.testing.assert_allclose(one.rotation, other.rotation, rtol=0, atol=1e-9)
     assert one.peak_rotation == pytest.approx(other.peak_rotation, rel=1e-8)
 
@@ -126,7 +132,7 @@ def test_threshold_far_ahead_lets_the_block_rest_until_it_is_reached():
 
 @pytest.mark.usefixtures("count_all")
 def test_block_that_lands_on_ground_beyond_the_threshold_is_not_put_to_rest():
-    pulse = th.Pulse("constant", 1.2 * LEVEL, math.pi / 0.3)  # rocks it to θ < 0
+    pulse = th.Pulse("constant", 1.2 * LEVEL, angular_frequency=math.pi / 0.3)  # rocks it to θ < 0
     found = plain.simulate(BLOCK, pulse, rotation=1e-9, samples=np.linspace(0.0, 0.3, 31))
     assert found.number_of_impacts == 1
     assert np.all(found.rotation[1:] < 0.0)
@@ -141,7 +147,7 @@ def test_lossless_block_is_never_said_to_rest():
         found = solve(LOSSLESS, velocity=small_speed(BLOCK, peak), duration=5.0, samples=2)
         assert found.outcome == "rocking"
         assert np.abs(found.rotation).max() <= peak * BLOCK.slenderness
-    assert solve(LOSSLESS, th.Pulse("one-sine", 0.2, 5.0)).outcome == "no uplift"
+    assert solve(LOSSLESS, th.Pulse("one-sine", 0.2, angular_frequency=5.0)).outcome == "no uplift"
     low = solve(LOSSLESS, rotation=0.25e-6 * (1 - 1e-9), samples=2)  # too low to count
     assert (low.outcome, len(low.impact_times) <= 1) == ("rocking", True)
 
@@ -153,11 +159,14 @@ def test_linear_block_has_fallen_only_where_no_ground_of_this_motion_brings_it_b
     """Beyond α + max|ü_g|/g nothing does; that may lie beyond π/2."""
     block = th.RockingBlock(1.0, 0.25, 0.3, linearised=True)
     # a push of 3 g for so long gives it more than the barrier, and not too much
-    pulse = th.Pulse("constant", 3.0, math.pi / 0.77)
+    pulse = th.Pulse("constant", 3.0, angular_frequency=math.pi / 0.77)
     found = plain.simulate(block, pulse, rotation=1.8, samples=np.linspace(0.0, 1.7, 18))
     assert (found.rotation[0], found.peak_rotation, found.overturned) == (1.8, 1.8, False)
     for push in (0.5, 4.0):
-        pulse, times = th.Pulse("constant", -push, math.pi / 5.0), np.linspace(0.0, 5.0, 5001)
+        pulse, times = (
+            th.Pulse("constant", -push, angular_frequency=math.pi / 5.0),
+            np.linspace(0.0, 5.0, 5001),
+        )
         found = plain.simulate(BLOCK.linear(), pulse, samples=times)
         assert found.overturned
         last = found.rotation[np.isfinite(found.rotation)][-1]
@@ -166,7 +175,7 @@ def test_linear_block_has_fallen_only_where_no_ground_of_this_motion_brings_it_b
 
 # ---------------------------------------------------------------------------- at the last bit
 
-SLOW, QUICK = th.RockingBlock(2.14, 0.25, 0.9), th.Pulse("one-sine", 1.0, 15.7)
+SLOW, QUICK = th.RockingBlock(2.14, 0.25, 0.9), th.Pulse("one-sine", 1.0, angular_frequency=15.7)
 
 
 def boundary(judged, block, unit, low, high):
@@ -206,7 +215,7 @@ def test_survivor_that_is_integrated_outward_ends_where_it_is_poised():
 @BOTH
 @pytest.mark.parametrize("shape", FINITE_SHAPES)
 def test_all_calls_agree_beside_a_boundary(shape, block):
-    unit, scan = th.Pulse(shape, 1.0, 7.0), LEVEL * np.geomspace(1.01, 20.0, 60)
+    unit, scan = th.Pulse(shape, 1.0, angular_frequency=7.0), LEVEL * np.geomspace(1.01, 20.0, 60)
     fell = th.overturned_by(block, unit, scan)
     at = np.flatnonzero(fell[1:] != fell[:-1])[0]
     low, high = boundary(th.judge, block, unit, *scan[at : at + 2].tolist())

@@ -23,7 +23,7 @@ def _closed():
 
 
 def test_history_is_in_parts_of_alpha_with_its_impacts():
-    response = topheavy.simulate(FRAME, Pulse("one-sine", 0.4, 6.0), samples=50)
+    response = topheavy.simulate(FRAME, Pulse("one-sine", 0.4, angular_frequency=6.0), samples=50)
     axes = plot.history(response)
     line, impacts, *_ = axes.lines
     assert np.array_equal(line.get_ydata(), response.rotation / FRAME.slenderness)
@@ -53,7 +53,7 @@ def test_fragility_has_points_in_bands_of_exact_intervals():
     assert axes.get_xlabel() == "PGA (g)"
 
 
-PULSE = Pulse("one-sine", 0.4, 6.0)
+PULSE = Pulse("one-sine", 0.4, angular_frequency=6.0)
 RESULTS = {
     "history": lambda: topheavy.simulate(FRAME, PULSE),
     "forces": lambda: topheavy.contact_forces(FRAME, Cap(5, 0.4), RESULTS["history"](), PULSE),

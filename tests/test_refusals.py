@@ -23,8 +23,8 @@ from topheavy.ground.shapes import ELEMENTARY, PULSE_SHAPES
 
 # ---------------------------------------------------------------------------- every argument
 
-PULSE = th.Pulse("one-sine", 0.5, 2.0)
-RICKER = th.Pulse("ricker-symmetric", 0.5, 6.0)
+PULSE = th.Pulse("one-sine", 0.5, angular_frequency=2.0)
+RICKER = th.Pulse("ricker-symmetric", 0.5, angular_frequency=6.0)
 SHAKING = th.Record(0.02, 0.3 * np.sin(0.1 * np.arange(200)))
 UP = th.Record(0.02, 0.1 * np.sin(0.2 * np.arange(200)))
 MOTIONS = [th.Record(0.02, 0.3 * np.sin(k * np.arange(200))) for k in (0.03, 0.05, 0.08, 0.2)]
@@ -164,7 +164,7 @@ def test_samples_of_a_record_cannot_be_written_to(twin):
 
 STOCKY = th.Column(2.0, 1.0)
 THREE = th.RockingFrame.of_masses(COLUMN, 600.0, 60.0, columns=3)
-FOREVER = th.Pulse("harmonic", 0.3, 5.0)
+FOREVER = th.Pulse("harmonic", 0.3, angular_frequency=5.0)
 STILL = th.Record(0.02, [0.0, 0.0, 0.0], "still")
 LATE = th.Record(0.02, SHAKING.acceleration, start=2.0)
 FALLING = th.Record(0.05, [0.0, 0.4, -0.5, 0.0])
@@ -215,10 +215,16 @@ BAD = {  # what the message begins with or has, and what is called
     "slenderness is 1.10715 rad (63.43°)": lambda: th.simulate(STOCKY, PULSE),
     # ground
     "angular_frequency is None and period is None": lambda: th.Pulse("one-sine", 0.3),
-    "is 2.0 and period is 3.0; expected one": lambda: th.Pulse("one-sine", 0.3, 2.0, period=3.0),
-    "cycles is 2 for shape 'half-sine'": lambda: th.Pulse("half-sine", 0.3, 5.0, cycles=2),
-    "'onesine' (did you mean 'one-sine'?)": lambda: th.Pulse("onesine", 0.3, 5.0),
-    f"'sawtooth'; expected one of {', '.join(PULSE_SHAPES)}": lambda: th.Pulse("sawtooth", 1, 1),
+    "is 2.0 and period is 3.0; expected one": lambda: th.Pulse(
+        "one-sine", 0.3, angular_frequency=2.0, period=3.0
+    ),
+    "cycles is 2 for shape 'half-sine'": lambda: th.Pulse(
+        "half-sine", 0.3, angular_frequency=5.0, cycles=2
+    ),
+    "'onesine' (did you mean 'one-sine'?)": lambda: th.Pulse("onesine", 0.3, angular_frequency=5.0),
+    f"'sawtooth'; expected one of {', '.join(PULSE_SHAPES)}": lambda: th.Pulse(
+        "sawtooth", 1, angular_frequency=1
+    ),
     "t holds NaN; expected times in s": lambda: PULSE.excitation(math.nan),
     "sample 1 of 2 is nan": lambda: record([0.0, math.nan]),
     "'Kos' has shape (1,); expected at least two samples": lambda: record([0.3], "Kos"),

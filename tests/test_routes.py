@@ -34,7 +34,9 @@ def shaken(draw, records=True):
         return block, th.Record(step / p, strength * level * samples, unit="g")
     strength = draw(st.floats(1.02, 5.0)) * draw(st.sampled_from([-1.0, 1.0]))
     ratio = draw(st.floats(2.0, 10.0))
-    return block, th.Pulse(draw(st.sampled_from(FINITE_SHAPES)), strength * level, ratio * p)
+    return block, th.Pulse(
+        draw(st.sampled_from(FINITE_SHAPES)), strength * level, angular_frequency=ratio * p
+    )
 
 
 def faster(factor, block, pulse):
@@ -115,7 +117,7 @@ def test_closed_form_is_the_history_of_the_kernel_under_a_record():
 def test_extreme_input_is_answered_alike_by_both_routes(strength, ratio, degrees, linearised):
     block = th.RockingBlock(2.0, math.radians(degrees), 0.9, linearised)
     for shape in ("one-sine", "one-cosine", "ricker-symmetric", "ricker-antisymmetric"):
-        pulse = th.Pulse(shape, strength * block.uplift_acceleration, ratio * 2.0)
+        pulse = th.Pulse(shape, strength * block.uplift_acceleration, angular_frequency=ratio * 2.0)
         end, whole = th.judge(block, pulse), th.simulate(block, pulse, samples=5)
         expected = plain.judge(block, pulse)
         assert fate(end) == fate(whole)
@@ -129,7 +131,7 @@ def test_extreme_input_is_answered_alike_by_both_routes(strength, ratio, degrees
 
 @pytest.mark.parametrize("shape", FINITE_SHAPES)
 def test_largest_amplitude_overturns_by_every_solver(shape):
-    pulse = th.Pulse(shape, MAX_ACCELERATION, 5.0)
+    pulse = th.Pulse(shape, MAX_ACCELERATION, angular_frequency=5.0)
     for block in (BLOCK, BLOCK.linear()):
         assert th.judge(block, pulse).overturned
         assert plain.judge(block, pulse).overturned

@@ -67,7 +67,11 @@ def test_overturning_without_impact_begins_at_the_root_of_its_condition(solve, r
     critical = 1 / math.sin(brentq(condition, 1e-6, 1.0, xtol=1e-15))
     margin = max(1e-9, 10 * CLOSE[solve])
     for factor, overturned in ((1 - margin, False), (1 + margin, True)):
-        found = solve(LINEAR, th.Pulse("one-sine", 0.2 * critical * factor, ratio), samples=2)
+        found = solve(
+            LINEAR,
+            th.Pulse("one-sine", 0.2 * critical * factor, angular_frequency=ratio),
+            samples=2,
+        )
         assert found.overturned is overturned
     assert found.number_of_impacts == 0
 
@@ -154,7 +158,7 @@ def test_block_lifts_beyond_its_threshold_alone(solve, block, shape, side):
     """To the side opposite to that of the ground's acceleration, and only then."""
     level = side * block.uplift_acceleration
     for strength in (0.5, 0.999, 1.0, 1.01, 1.5):
-        pulse = th.Pulse(shape, strength * level, 10.0)
+        pulse = th.Pulse(shape, strength * level, angular_frequency=10.0)
         found = solve(block, pulse, samples=np.linspace(0.0, 0.12, 21))
         assert (found.outcome == "no uplift") == (strength <= 1.0)
         assert (found.peak_rotation != 0) == (strength > 1.0)
@@ -205,7 +209,7 @@ def test_block_lifts_again_after_it_has_come_to_rest(solve, block, restitution):
 @EVERY
 def test_block_without_restitution_lifts_at_once_when_it_lands_on_strong_ground(solve, block):
     block = block.with_restitution(0.0)
-    pulse = th.Pulse("constant", 3.0 * block.uplift_acceleration, math.pi / 0.6)
+    pulse = th.Pulse("constant", 3.0 * block.uplift_acceleration, angular_frequency=math.pi / 0.6)
     found = solve(block, pulse, rotation=0.02, duration=0.6, samples=301)
     assert found.number_of_impacts == 1
     after = found.time > found.impact_times[0] + 1e-3
@@ -223,7 +227,7 @@ def test_grazing_impacts_are_neither_missed_nor_invented(solve, block, margin, s
     lean = block.slenderness - start
     work = push * (start if block.linearised else math.sin(block.slenderness) - math.sin(lean))
     critical = block.frequency_parameter * math.sqrt(2 * (work - potential(block, start)))
-    pulse = th.Pulse("constant", -side * push, math.pi / 0.35)
+    pulse = th.Pulse("constant", -side * push, angular_frequency=math.pi / 0.35)
     for factor, impacts in ((1 - margin, 0), (1 + margin, 2)):
         thrown = {"rotation": side * start, "velocity": -side * critical * factor}
         found = solve(block, pulse, **thrown, duration=0.35, samples=2)

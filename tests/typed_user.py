@@ -12,7 +12,7 @@ import topheavy as th
 pier = th.Column.of_dimensions(width=1.6, height=9.6)
 bent = th.RockingFrame.of_masses(pier, cap_mass=400e3, column_mass=60e3)
 block = th.RockingBlock(2.0, 0.25, 0.9)
-pulse = th.Pulse("one-sine", 1.0, 3.0)
+pulse = th.Pulse("one-sine", 1.0, angular_frequency=3.0)
 long = th.Pulse("one-sine", 1.0, period=6.0)
 assert_type(long.period, float)
 times = np.linspace(0.0, 1.0, 5)

@@ -101,7 +101,7 @@ def pictures(settings: dict, column: dict) -> list[Image.Image]:
     given, cap = settings["pulse"], settings["cap"]
     shown = structures(Column(**column), settings["mass_ratio"], cap)
     alpha = shown["column"].slenderness
-    pulse = Pulse(given["shape"], given["amplitude"], 2.0 * math.pi / given["period"])
+    pulse = Pulse(given["shape"], given["amplitude"], period=given["period"])
     times = np.arange(0.0, settings["duration"], hundredths(settings) / 100.0)
     theta = {name: rotations(one, pulse, times, cap) for name, one in shown.items()}
     figure, scene, marker = stage(pulse, times, settings, column)

@@ -60,7 +60,7 @@ def motion(state: Mapping[str, Any], records: Mapping[str, Record]) -> Pulse | R
     if state["shape"] == "record":
         return records[state["record"]].scaled((DEFAULTS | state)["x"])
     sign = -1.0 if state["shape"] == "harmonic" else 1.0
-    return Pulse(state["shape"], sign * state["a"], 2.0 * math.pi / state["T"])
+    return Pulse(state["shape"], sign * state["a"], period=state["T"])
 
 
 def options(state: Mapping[str, Any], block: RockingBlock) -> dict[str, float]:

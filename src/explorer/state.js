@@ -87,7 +87,7 @@ function inPython(state, file = `${state.record}.AT2`) {
     state.cap === "fixed" ? ["portal", "MonolithicPortal", `(column, ${g}, ${float(state.L)})`] : ["frame", "RockingFrame", `(column, ${g})`],
   ].filter(([name]) => name !== "vase" || state.vase === "shown");
   const names = ["simulate", isRecord ? "read_record" : "Pulse", ...structures.map(([, type]) => type)].sort();
-  let motion = `Pulse("${state.shape}", ${isSteady ? "-" : ""}${float(state.a)}, 2 * math.pi / ${float(state.T)})`;
+  let motion = `Pulse("${state.shape}", ${isSteady ? "-" : ""}${float(state.a)}, period=${float(state.T)})`;
   if (isRecord) motion = `read_record(${JSON.stringify(`data/records/${file}`)}).scaled(${float(state.x)})  # the place of your file`;
   let options = isSteady ? `, duration=${float(state.D)}` : "";
   if (isAbrupt) options += ", velocity=block.frequency_parameter**2 * (1.0 if block.linearised else math.cos(block.slenderness)) * table";

@@ -1,6 +1,5 @@
 """The model of Allen et al. (1986), linearised and with massless columns."""
 
-import math
 from itertools import product
 
 import numpy as np
@@ -20,7 +19,7 @@ def histories(frame, settings, record, tightened):
     """Return the rotation of the exact frame and of the whole model, under a pulse and a record."""
     shape, amplitude, period = settings["pulse"].values()
     motions = {
-        "pulse": (Pulse(shape, amplitude, 2 * math.pi / period), 6.0 * period),
+        "pulse": (Pulse(shape, amplitude, period=period), 6.0 * period),
         "record": (read_record(record).scaled(settings["factor"]), 30.0),
     }
     courses = []

@@ -224,7 +224,7 @@ def ramped(settings: dict) -> Iterator[dict]:
 def until_first_impacts(column: Column, settings: dict) -> Iterator[dict]:
     """Yield rotations under one pulse, from uplift to the first impact of each structure."""
     spec = settings["order"]
-    pulse = Pulse(spec["shape"], spec["amplitude"], 2.0 * math.pi / spec["period"])
+    pulse = Pulse(spec["shape"], spec["amplitude"], period=spec["period"])
     times = np.linspace(0.0, spec["duration"], spec["samples"])
     for gamma in spec["mass_ratios"]:
         response = simulate(RockingFrame(column, gamma), pulse, samples=times)

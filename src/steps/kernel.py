@@ -6,7 +6,7 @@ from replication.step import run
 from steps.shared import synthetic
 from topheavy import Column, Pulse, Record, judge, overturned_by, overturning_map, simulate
 
-COLUMN, PULSE = Column(0.5, 3.0), Pulse("one-sine", 0.3, 6.0)
+COLUMN, PULSE = Column(0.5, 3.0), Pulse("one-sine", 0.3, angular_frequency=6.0)
 RECORD = Record(0.01, 0.3 * np.sin(0.06 * np.arange(100)))
 QUAKE = synthetic.Scenario(magnitude=6.5, distance=10.0, site_velocity=760.0, directivity=10.0)
 

@@ -29,7 +29,7 @@ def moment_by_energy(mass_ratio, slenderness, rotations):
 
 def minimum(frame, shape, period):
     """Return the minimum overturning acceleration of a pulse, g, by both solvers."""
-    pulse = Pulse(shape, 1.0, 2 * math.pi / period)
+    pulse = Pulse(shape, 1.0, period=period)
     low, high = lowest(frame, pulse).bracket
     sides = [low * (1 - ASIDE), high * (1 + ASIDE)]
     outcomes = [plain.judge(frame, pulse.scaled(side)).overturned for side in sides]

@@ -23,7 +23,11 @@ def table_acceleration(amplitude, frequency):
 
 def table_motion(amplitude, frequency):
     """Return the steady acceleration of the shake table, −u₀ (2πf)² sin 2πft, from t = 0 on."""
-    return Pulse("harmonic", -table_acceleration(amplitude, frequency), 2.0 * math.pi * frequency)
+    return Pulse(
+        "harmonic",
+        -table_acceleration(amplitude, frequency),
+        angular_frequency=2.0 * math.pi * frequency,
+    )
 
 
 def abrupt_start(frame, amplitude, frequency):

@@ -130,7 +130,7 @@ def of_one_period(column: Column, settings: dict) -> list[dict]:
     each = [*rivals(column, settings["mass_ratios"]), (PORTAL, gamma, portal)]
     for (name, gamma, structure), shape in product(each, settings["shapes"]):
         block = structure.block()
-        pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
+        pulse = Pulse(shape, 1.0, period=settings["period"])
         interval = lowest(structure, pulse, highest, settings["floor"])
         minima.append((structure, pulse, interval))
         rows.append(
@@ -164,7 +164,7 @@ def over_frequency(column: Column, settings: dict) -> list[dict]:
         for rival in rivals(column, spec["mass_ratios"])
     ]
     pairs = [
-        (structure, Pulse(shape, 1.0, ratio * column.frequency_parameter))
+        (structure, Pulse(shape, 1.0, angular_frequency=ratio * column.frequency_parameter))
         for shape, ratio, *_, structure in cases
     ]
     intervals = lowest_by_two_floors(pairs, highest, settings)
@@ -220,7 +220,7 @@ def poses(column: Column, settings: dict) -> Iterator[dict]:
     picture = settings["picture"]
     shown = structures(column, picture["mass_ratio"], picture["cap"])
     for amplitude, (name, structure) in product(picture["amplitudes"], shown.items()):
-        pulse = Pulse("one-cosine", amplitude, 2.0 * math.pi / settings["period"])
+        pulse = Pulse("one-cosine", amplitude, period=settings["period"])
         outcome, angles = rotations(structure, pulse, picture["cap"])
         for pose, rotation in enumerate(angles):
             labels = {

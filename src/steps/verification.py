@@ -32,7 +32,7 @@ OF_FORM = 1e-7  # of itself: a closed form
 AGREE = 1e-6  # of α: 99 % of the peaks of two solvers
 
 SLENDER = RockingBlock(1.0, 0.25, 0.9, linearised=True)
-ONE_SINE = Pulse("one-sine", 0.25, 5.0)  # of the amplitude α g
+ONE_SINE = Pulse("one-sine", 0.25, angular_frequency=5.0)  # of the amplitude α g
 QUICK = replace(SLENDER, frequency_parameter=2.14)
 PEER = RockingBlock(2.0, math.radians(15.0), 0.89952)
 FRAME = RockingFrame(Column(0.75, 3.5), 13.23)
@@ -41,10 +41,13 @@ PRINTED = {
     "one_sine_with_impact": (SLENDER, ONE_SINE),
     END: (SLENDER, ONE_SINE),
     "one_sine_without_impact": (SLENDER, ONE_SINE),
-    "one_sine_dimensional": (QUICK, Pulse("one-sine", 1.0, 15.7)),
-    "one_cosine_exact": (PEER, Pulse("one-cosine", 1.0, math.pi)),
-    "half_sine_linear": (Column(0.2, 0.6).block().linear(), Pulse("half-sine", 1.0, 2 * math.pi)),
-    "heavy_frame_ricker": (FRAME.block(), Pulse("ricker-symmetric", 1.0, 2 * math.pi / 3.14)),
+    "one_sine_dimensional": (QUICK, Pulse("one-sine", 1.0, angular_frequency=15.7)),
+    "one_cosine_exact": (PEER, Pulse("one-cosine", 1.0, angular_frequency=math.pi)),
+    "half_sine_linear": (
+        Column(0.2, 0.6).block().linear(),
+        Pulse("half-sine", 1.0, angular_frequency=2 * math.pi),
+    ),
+    "heavy_frame_ricker": (FRAME.block(), Pulse("ricker-symmetric", 1.0, period=3.14)),
 }
 """Cases of the literature: a block, and a pulse on which a factor is printed."""
 
@@ -62,11 +65,14 @@ def cells(settings, shape, linearised):
         level = block.uplift_acceleration
         if number % 2:
             intervals = overturning_intervals(
-                block, Pulse(shape, level, omega), (1.0, settings["amplitudes"][1]), resolution=0.05
+                block,
+                Pulse(shape, level, angular_frequency=omega),
+                (1.0, settings["amplitudes"][1]),
+                resolution=0.05,
             )
             if intervals:
                 ratio = intervals[0].lower[0] * (1.0 + settings["near"] * draw.uniform(-1.0, 1.0))
-        yield block, Pulse(shape, ratio * level, omega)
+        yield block, Pulse(shape, ratio * level, angular_frequency=omega)
 
 
 def others(sample, tightened, is_solvable):

@@ -57,7 +57,7 @@ if __name__ == "__main__":
     draw(runs)
     g_tan, pulse = (
         COLUMN.uplift_acceleration,
-        Pulse("one-sine", 1.0, CONFIG["pulse"]["frequency"] * P),
+        Pulse("one-sine", 1.0, angular_frequency=CONFIG["pulse"]["frequency"] * P),
     )
     lowest = lowest_overturning(COLUMN, pulse, (g_tan, 3.0 * g_tan), floor=1e-3 * g_tan)
     numbers = {"rows": [row for run in runs for row in rows(run)]}

@@ -12,7 +12,7 @@ from tests.cases import COLUMN, CONFIG, FRAME, broken
 
 SETTINGS = CONFIG["contacts"]
 CAP = contacts.cap_on(FRAME, SETTINGS, COLUMN.half_height)
-PULSE = th.Pulse("one-sine", 0.3, 3.0)
+PULSE = th.Pulse("one-sine", 0.3, angular_frequency=3.0)
 
 
 def table(**changed):
@@ -78,7 +78,9 @@ def test_forces_of_another_motion_are_noticed(monkeypatch):
 
 
 def test_cell_of_a_map_has_the_least_force_of_its_history():
-    pulses = [th.Pulse("one-sine", amplitude, 4.0) for amplitude in (0.3, 0.6, 2.5)]
+    pulses = [
+        th.Pulse("one-sine", amplitude, angular_frequency=4.0) for amplitude in (0.3, 0.6, 2.5)
+    ]
     for structure, cap in ((COLUMN, None), (FRAME, CAP)):
         least, fell = contacts.of_cells(structure, cap, pulses)
         rows = [contacts.row_of(structure, cap, pulse) for pulse in pulses]

@@ -62,7 +62,9 @@ def test_released_structure_has_the_impact_and_the_restitution_of_theory(name, s
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_ground_that_accelerates_forward_tilts_it_back(sign):
-    pulse = th.Pulse("constant", sign * 1.5 * TRILITH.uplift_acceleration, math.pi / 0.1)
+    pulse = th.Pulse(
+        "constant", sign * 1.5 * TRILITH.uplift_acceleration, angular_frequency=math.pi / 0.1
+    )
     expected = th.simulate(TRILITH, pulse, duration=0.1, samples=2).rotation[-1]
     *_, (_, last) = motion(in_engine("column", "MuJoCo"), pulse.excitation, 0.1, look=1)
     assert math.asin(last[0, 0, 2]) == pytest.approx(expected, rel=0.05)
@@ -88,7 +90,7 @@ def test_free_rocking_of_a_history_that_is_known():
     ],
 )
 def test_outcome_of_inclinations(inclined, falls):
-    pulse = th.Pulse("half-sine", 0.3, math.pi / 0.05)
+    pulse = th.Pulse("half-sine", 0.3, angular_frequency=math.pi / 0.05)
     looks = [(0.1 * number, angle) for number, angle in enumerate(inclined, 1)]
     assert overturn(looks, COLUMN, pulse) is falls
 
@@ -96,7 +98,9 @@ def test_outcome_of_inclinations(inclined, falls):
 @pytest.mark.parametrize("code", ENGINES)
 @pytest.mark.parametrize("factor", [0.9, 1.1])
 def test_long_push_overturns_from_uplift_on(factor, code):
-    pulse = th.Pulse("constant", factor * TRILITH.uplift_acceleration, math.pi / 2.0)
+    pulse = th.Pulse(
+        "constant", factor * TRILITH.uplift_acceleration, angular_frequency=math.pi / 2.0
+    )
     rig = in_engine("column", code, 8e-4)
     assert ENGINES[code].overturns(rig, pulse) is (factor > 1.0)
 
@@ -106,7 +110,7 @@ def test_long_push_overturns_from_uplift_on(factor, code):
 def test_joints_decide_at_which_push_a_colonnade_uplifts(joints, uplift, factor):
     rig = Stones(COLUMN, 4.0, th.Cap(5.0, 0.5), 2e-3, columns=5, joints=joints, gap=0.02)
     push = factor * uplift * COLUMN.uplift_acceleration
-    pulse = th.Pulse("constant", push, math.pi / 6.0)
+    pulse = th.Pulse("constant", push, angular_frequency=math.pi / 6.0)
     assert stones.overturns(rig, pulse) is (factor > 1.0)
 
 
@@ -148,7 +152,9 @@ IN_SPACE = {
 def test_in_space_a_long_push_overturns_from_the_uplift_by_hand_on(name, factor):
     by_hand, direction, changed = IN_SPACE[name]
     bodies = Bodies(TRILITH, 0.11, 0.434, LINTEL, 1.6e-3, **changed)
-    pulse = th.Pulse("constant", factor * by_hand.uplift_acceleration, math.pi / 2.0)
+    pulse = th.Pulse(
+        "constant", factor * by_hand.uplift_acceleration, angular_frequency=math.pi / 2.0
+    )
     assert overturns(bodies, pulse, direction) is (factor > 1.0)
 
 
@@ -298,7 +304,7 @@ def test_column_survives_the_pulse_from_the_stated_reduction_on():
     plan = test_plan.compute(settings).iloc[0]
     column = th.Column(**settings["column"])
     omega = settings["frequency_ratio"] * column.frequency_parameter
-    pulse = th.Pulse(settings["shape"], plan.pulse, omega)
+    pulse = th.Pulse(settings["shape"], plan.pulse, angular_frequency=omega)
     least = plan.survived_if_lower_by
     for reduction, overturned in ((least - 0.01, True), (least, False)):
         block = column.block(column.restitution * (1.0 - reduction))

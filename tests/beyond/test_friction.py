@@ -39,7 +39,11 @@ def test_a_contact_that_would_have_to_pull_is_open():
 @pytest.mark.parametrize("gamma", [0.2, 4.0])
 def test_required_friction_is_that_of_three_bodies_and_of_uplift_at_least(gamma):
     frame = RockingFrame(COLUMN, gamma)
-    shaking = Pulse("one-sine", 1.5 * COLUMN.uplift_acceleration, 4.0 * COLUMN.frequency_parameter)
+    shaking = Pulse(
+        "one-sine",
+        1.5 * COLUMN.uplift_acceleration,
+        angular_frequency=4.0 * COLUMN.frequency_parameter,
+    )
     row = friction.required(frame, CAP, shaking, SETTINGS)
     assert row["required"] >= COLUMN.uplift_acceleration
     friction.compare(frame, CAP, row, SETTINGS)
@@ -56,17 +60,27 @@ def test_three_bodies_of_another_bay_disagree(monkeypatch):
 
 def test_an_overturning_pulse_is_left_out_and_an_impact_counts():
     frame = RockingFrame(COLUMN, 1.0)
-    strong = Pulse("one-sine", 20.0 * COLUMN.uplift_acceleration, COLUMN.frequency_parameter)
+    strong = Pulse(
+        "one-sine", 20.0 * COLUMN.uplift_acceleration, angular_frequency=COLUMN.frequency_parameter
+    )
     assert friction.required(frame, CAP, strong, SETTINGS) is None
     impact = friction.impact_impulses(frame, CAP, 1.0)
-    weak = Pulse("one-sine", 1.1 * COLUMN.uplift_acceleration, 6.0 * COLUMN.frequency_parameter)
+    weak = Pulse(
+        "one-sine",
+        1.1 * COLUMN.uplift_acceleration,
+        angular_frequency=6.0 * COLUMN.frequency_parameter,
+    )
     row = friction.required(frame, CAP, weak, SETTINGS)
     assert row["least_vertical"] <= impact.vertical.min() / impact.vertical[:2].sum()
     assert row["required"] >= float(np.max(impact.friction_demand))
 
 
 def test_error_of_required_friction_is_what_half_of_the_samples_change():
-    shaking = Pulse("one-sine", 3.0 * COLUMN.uplift_acceleration, 6.0 * COLUMN.frequency_parameter)
+    shaking = Pulse(
+        "one-sine",
+        3.0 * COLUMN.uplift_acceleration,
+        angular_frequency=6.0 * COLUMN.frequency_parameter,
+    )
     frame = RockingFrame(COLUMN, 1.0)
     fine, coarse = (friction.required(frame, CAP, shaking, {"samples": n}) for n in (8, 4))
     assert fine["error"] == pytest.approx(fine["required"] - coarse["required"], rel=1e-6)

@@ -47,7 +47,7 @@ KNOWN_VALUES = [
 
 
 def pulse(shape, amplitude=0.3, omega=OMEGA):
-    return Pulse(shape, amplitude, omega)
+    return Pulse(shape, amplitude, angular_frequency=omega)
 
 
 def times_of(shape, number=2001):
@@ -70,7 +70,7 @@ def test_pulse_lasts_its_number_of_cycles_and_is_zero_after_them(shape):
 
 @pytest.mark.parametrize("shape", ["one-sine", "one-cosine"])
 def test_pulse_of_several_cycles_repeats_its_first_and_then_ends(shape):
-    one, three = pulse(shape), Pulse(shape, 0.3, OMEGA, cycles=3)
+    one, three = pulse(shape), Pulse(shape, 0.3, angular_frequency=OMEGA, cycles=3)
     assert three.duration == pytest.approx(3.0 * PERIOD, rel=1e-15)
     time = np.linspace(0.0, 0.999 * PERIOD, 501)
     for cycle in range(3):
@@ -78,7 +78,11 @@ def test_pulse_of_several_cycles_repeats_its_first_and_then_ends(shape):
             three.excitation(time + cycle * PERIOD), one.excitation(time), atol=1e-14
         )
     assert not three.excitation(PERIOD * np.array([3.001, 3.5])).any()
-    assert three.scaled(2.0) == Pulse(shape, 0.6, OMEGA, cycles=3) != pulse(shape, 0.6)
+    assert (
+        three.scaled(2.0)
+        == Pulse(shape, 0.6, angular_frequency=OMEGA, cycles=3)
+        != pulse(shape, 0.6)
+    )
     assert "cycles=3" in repr(three)
     corners = plain.ground_of(three)[0].corners[1:-1] / OMEGA
     turns = corners[np.abs(three.excitation(corners)) > 0.15]
@@ -104,19 +108,29 @@ def test_pulse_is_even_or_odd_about_its_middle(shape):
 
 def test_period_stands_for_the_angular_frequency():
     by_period = Pulse("one-cosine", 0.3, period=1.5)
-    assert by_period == Pulse("one-cosine", 0.3, 2.0 * math.pi / 1.5)
+    assert by_period == Pulse("one-cosine", 0.3, angular_frequency=2.0 * math.pi / 1.5)
     assert by_period.period == pytest.approx(1.5, rel=1e-15)
-    assert by_period.scaled(2.0) == Pulse("one-cosine", 0.6, by_period.angular_frequency)
+    assert by_period.scaled(2.0) == Pulse(
+        "one-cosine", 0.6, angular_frequency=by_period.angular_frequency
+    )
 
 
 def test_lists_are_parts_of_the_one_list():
-    finite = (name for name in SHAPES if Pulse(name, 1.0, 1.0).duration < math.inf)
+    finite = (
+        name for name in SHAPES if Pulse(name, 1.0, angular_frequency=1.0).duration < math.inf
+    )
     assert tuple(finite) == FINITE_SHAPES
     assert {*get_args(PulseShape)} == {*SHAPES}
     assert set(ELEMENTARY) == {name for name in SHAPES if not name.startswith("ricker")}
 
 
 # ---------------------------------------------------------------------------- records
+
+
+def test_number_that_could_be_a_period_or_a_frequency_is_refused():
+    with pytest.raises(TypeError, match=r"period=1.5 for s, or angular_frequency=1.5 for rad/s"):
+        Pulse("one-cosine", 0.29, angular_frequency=1.5)
+
 
 SAMPLES = (0.1, -0.2, 0.4, 0.0, -0.3)
 FIVE = Record(0.02, np.array(SAMPLES), name="five samples")

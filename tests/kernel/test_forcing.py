@@ -40,7 +40,7 @@ def inside(shape: str, number: int = 97, cycles: int = 1) -> np.ndarray:
 
 @EVERY
 def test_pulse_is_that_of_the_library(shape, cycles):
-    pulse = Pulse(shape, -0.7, RATIO, cycles=cycles)
+    pulse = Pulse(shape, -0.7, angular_frequency=RATIO, cycles=cycles)
     there = pulse_forcing(shape, -0.7, RATIO, cycles)
     assert there.end == pytest.approx(pulse.duration, rel=1e-15)
     times = inside(shape, cycles=cycles)
@@ -81,7 +81,7 @@ def first_above(pulse: Pulse, start: float, stop: float, level: float) -> float:
 def test_uplifts_are_those_between_the_turning_points(shape, cycles, strength):
     level = 0.25
     there = pulse_forcing(shape, strength * level, RATIO, cycles)
-    pulse = Pulse(shape, strength * level, RATIO, cycles=cycles)
+    pulse = Pulse(shape, strength * level, angular_frequency=RATIO, cycles=cycles)
     for start in (0.0, *inside(shape, 23, cycles)):
         expected = first_above(pulse, start, min(8.0 * cycles, pulse.duration), level)
         time, push, rate, side = next_uplift(there, start, level)

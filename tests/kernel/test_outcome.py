@@ -102,7 +102,7 @@ def test_the_side_is_a_state_of_its_own():
 
 def test_pulse_of_several_cycles_is_the_record_of_its_samples():
     for strength in (1.3, 2.5, 3.5, 9.0):
-        pulse = Pulse("one-cosine", strength * BLOCK.slenderness, 3.0, cycles=3)
+        pulse = Pulse("one-cosine", strength * BLOCK.slenderness, angular_frequency=3.0, cycles=3)
         time = np.linspace(0.0, pulse.duration, 30_001)
         motions = pulse, Record(time[1], pulse.excitation(time))
         end, sampled = (judge(BLOCK.linear(), motion) for motion in motions)

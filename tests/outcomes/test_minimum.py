@@ -16,7 +16,7 @@ PIER = th.Column(0.8, 4.8)
 BENT = th.RockingFrame.of_masses(PIER, cap_mass=400.0, column_mass=60.0)
 BLOCK = th.RockingBlock(2.0, 0.25, 0.9)
 LINEAR = th.RockingBlock(1.0, 0.25, 0.9, linearised=True)
-SINE = th.Pulse("one-sine", 0.25, 5.0)
+SINE = th.Pulse("one-sine", 0.25, angular_frequency=5.0)
 SHAKING = th.Record(0.05, 0.3 * np.sin(np.linspace(0, 18, 90)) * np.hanning(90))
 
 

@@ -12,7 +12,7 @@ from topheavy.outcomes.search import SURVIVES, cases_of, intervals_of_many, outc
 
 BLOCK, COLUMN = th.RockingBlock(2.0, 0.25, 0.9), th.Column(0.5, 2.0)
 LINEAR = th.RockingBlock(1.0, 0.25, 0.9, linearised=True)  # of Zhang & Makris (2001)
-SINE = th.Pulse("one-sine", 0.25, 5.0)  # of amplitude αg
+SINE = th.Pulse("one-sine", 0.25, angular_frequency=5.0)  # of amplitude αg
 SHAKING = th.Record(0.02, 0.6 * np.sin(np.linspace(0.0, 40.0, 400)) * np.linspace(1.0, 0.2, 400))
 
 
@@ -26,7 +26,7 @@ def test_each_cell_of_a_map_is_a_history(block, shape):
     amplitudes = block.uplift_acceleration * np.array([0.0, 0.9999, 1.01, 1.4, 2.5, 4.0, 9.0])
     outcomes = th.overturning_map(block, shape, frequencies, amplitudes)
     for (i, j), peak in np.ndenumerate(outcomes.peak_rotation.values):
-        pulse = th.Pulse(shape, amplitudes[j], frequencies[i])
+        pulse = th.Pulse(shape, amplitudes[j], angular_frequency=frequencies[i])
         end, whole = th.judge(block, pulse), th.simulate(block, pulse, samples=2)
         cell = (bool(outcomes.overturned[i, j]), int(outcomes.number_of_impacts[i, j]))
         assert cell == fate(end) == fate(whole)
@@ -42,10 +42,25 @@ def test_each_cell_of_a_map_is_a_history(block, shape):
 
 CASES = {
     "Zhang & Makris": (LINEAR, SINE, (1.0, 10.0), 0.05),
-    "exact one-sine": (BLOCK, th.Pulse("one-sine", 0.25, 10.0), (1.0, 14.0), 0.02),
-    "one-cosine": (BLOCK, th.Pulse("one-cosine", 0.25, 5.0), (1.0, 9.0), 0.02),
-    "antisymmetric": (BLOCK, th.Pulse("ricker-antisymmetric", 0.25, 5.0), (1.0, 6.0), 0.01),
-    "mirrored": (BLOCK, th.Pulse("ricker-symmetric", -0.25, 5.0), (-5.0, -1.0), 0.01),
+    "exact one-sine": (
+        BLOCK,
+        th.Pulse("one-sine", 0.25, angular_frequency=10.0),
+        (1.0, 14.0),
+        0.02,
+    ),
+    "one-cosine": (BLOCK, th.Pulse("one-cosine", 0.25, angular_frequency=5.0), (1.0, 9.0), 0.02),
+    "antisymmetric": (
+        BLOCK,
+        th.Pulse("ricker-antisymmetric", 0.25, angular_frequency=5.0),
+        (1.0, 6.0),
+        0.01,
+    ),
+    "mirrored": (
+        BLOCK,
+        th.Pulse("ricker-symmetric", -0.25, angular_frequency=5.0),
+        (-5.0, -1.0),
+        0.01,
+    ),
     "across zero": (BLOCK, SINE, (-6.0, 5.0), 0.02),
     "record": (
         *(BLOCK, th.Record(0.05, 0.3 * np.sin(np.linspace(0, 18, 90)) * np.hanning(90))),
@@ -115,7 +130,12 @@ def test_no_interval_wider_than_the_resolution_is_missed(case):
 def test_intervals_of_many_are_those_of_each_alone():
     """To the last bit, in their order; a finer search adds what lies below the first."""
     blocks = [BLOCK, LINEAR, COLUMN, BLOCK]
-    motions = [SINE, SINE.scaled(0.9), SHAKING, th.Pulse("ricker-symmetric", 0.3, 6.0)]
+    motions = [
+        SINE,
+        SINE.scaled(0.9),
+        SHAKING,
+        th.Pulse("ricker-symmetric", 0.3, angular_frequency=6.0),
+    ]
     settings, ends = {"resolution": 0.05, "most_impacts": 1}, (0.5, 6.0)
     several = intervals_of_many(blocks, motions, ends, **settings)
     for block, motion, intervals in zip(blocks, motions, several, strict=True):

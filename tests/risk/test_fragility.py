@@ -75,7 +75,7 @@ def test_measure_may_be_a_function_and_a_motion_a_pulse():
     def peak_of_pulse(pulse):
         return pulse.amplitude
 
-    pulses = [th.Pulse("one-sine", 1.0, omega) for omega in (2.0, 3.0, 4.0)]
+    pulses = [th.Pulse("one-sine", 1.0, angular_frequency=omega) for omega in (2.0, 3.0, 4.0)]
     result = th.fragility([PIER], pulses, [0.2, 0.5, 1.0], peak_of_pulse, resamples=100)
     for number, pulse in enumerate(pulses):
         np.testing.assert_array_equal(

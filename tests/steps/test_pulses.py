@@ -21,7 +21,7 @@ from tests.cases import COLUMN, CONFIG, ROOT, SIZES, as_written, broken
 from tests.cases import FRAME as BENT
 from topheavy.forces.members import base_shear_slope
 
-PULSE = th.Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
+PULSE = th.Pulse("one-cosine", 1.0, period=1.5)
 TIGHT = 3e-12
 
 
@@ -298,7 +298,7 @@ def test_error_of_a_minimum_is_as_large_as_the_plain_solver_is_off(monkeypatch):
 
 def test_narrow_interval_above_uplift_is_not_missed():
     """Its width is less than the floor of the search."""
-    slow = th.Pulse("one-cosine", 1.0, 0.55 * COLUMN.frequency_parameter)
+    slow = th.Pulse("one-cosine", 1.0, angular_frequency=0.55 * COLUMN.frequency_parameter)
     found = minimum(COLUMN, slow)
     finer = minimum(COLUMN, slow, floor=0.0001)
     assert found.factor == pytest.approx(finer.factor, abs=1e-8)
@@ -448,7 +448,9 @@ CAP = th.Cap(5.0, 0.5)
 
 def pulse(amplitude, shape="one-sine", ratio=4.0):
     return th.Pulse(
-        shape, amplitude * COLUMN.uplift_acceleration, ratio * COLUMN.frequency_parameter
+        shape,
+        amplitude * COLUMN.uplift_acceleration,
+        angular_frequency=ratio * COLUMN.frequency_parameter,
     )
 
 

@@ -15,10 +15,10 @@ TRILITH = Column(0.11, 0.4)
 FRAME = RockingFrame(TRILITH, 0.434)
 SHAPE = {"span": 1.2, "cap_depth": 0.3}
 PULSES = (
-    Pulse("one-sine", 0.6, 8.0),
-    Pulse("one-cosine", -0.5, 20.0),
-    Pulse("ricker-symmetric", 0.5, 12.0),
-    Pulse("ricker-symmetric", 0.6, 6.0),
+    Pulse("one-sine", 0.6, angular_frequency=8.0),
+    Pulse("one-cosine", -0.5, angular_frequency=20.0),
+    Pulse("ricker-symmetric", 0.5, angular_frequency=12.0),
+    Pulse("ricker-symmetric", 0.6, angular_frequency=6.0),
 )
 rocked = partial(simulate_three_bodies, FRAME, **SHAPE)
 
@@ -90,7 +90,7 @@ def test_energy_is_conserved_between_impacts_and_falls_by_the_square_of_the_rati
 
 @pytest.mark.parametrize(("share", "outcome"), [(0.999999, "no uplift"), (1.01, "rests")])
 def test_frame_uplifts_beyond_tan_alpha(share, outcome):
-    pulse = Pulse("one-sine", share * math.tan(FRAME.slenderness), 10.0)
+    pulse = Pulse("one-sine", share * math.tan(FRAME.slenderness), angular_frequency=10.0)
     history = rocked(pulse, duration=3.0, samples=50)
     assert history.outcome == outcome
     assert history.coordinates.any() == (outcome != "no uplift")

@@ -75,7 +75,7 @@ def of_pictures(
     pieces = {PORTAL: MonolithicPortal(column, gamma, portal["span"], portal["depth"])}
     omega = 2.0 * math.pi / settings["period"]
     for shape in settings["shapes"]:
-        pulse, alone = Pulse(shape, 1.0, omega), minima["column", 0.0, shape]
+        pulse, alone = Pulse(shape, 1.0, angular_frequency=omega), minima["column", 0.0, shape]
         for mass_ratio in (gamma, math.inf):
             both, ends = (
                 of_mass(column, 0.0, mass_ratio),
@@ -84,7 +84,7 @@ def of_pictures(
             yield Case(f"minimum, {shape}", both, pulse, between(*ends))
     shape = "one-cosine"
     pulse, ends = (
-        Pulse(shape, 1.0, omega),
+        Pulse(shape, 1.0, angular_frequency=omega),
         [minima[name, gamma, shape] for name in ("frame", PORTAL)],
     )
     yield Case(f"portal, {shape}", of_mass(column, gamma) | pieces, pulse, between(*ends))

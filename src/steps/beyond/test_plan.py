@@ -23,7 +23,7 @@ def compute(settings):
     """
     column = Column(**settings["column"])
     omega = settings["frequency_ratio"] * column.frequency_parameter
-    unit, alone = Pulse(settings["shape"], 1.0, omega), column.block()
+    unit, alone = Pulse(settings["shape"], 1.0, angular_frequency=omega), column.block()
     others = {"frame": RockingFrame(column, settings["mass_ratio"]).block()}
     for reduction in settings["reductions"]:
         lower = alone.with_restitution(alone.restitution * (1.0 - reduction))

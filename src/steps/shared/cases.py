@@ -28,7 +28,7 @@ def pulse_on(
     return Pulse(
         shape,
         amplitude * column.uplift_acceleration,
-        frequency_ratio * column.frequency_parameter,
+        angular_frequency=frequency_ratio * column.frequency_parameter,
         cycles=cycles,
     )
 

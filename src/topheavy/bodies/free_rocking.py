@@ -36,7 +36,8 @@ class Outcome(NamedTuple):
 
     Examples
     --------
-    >>> th.judge(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0).scaled(0.18)).number_of_impacts
+    >>> pulse = th.Pulse("one-sine", 1.0, angular_frequency=2.0)
+    >>> th.judge(th.Column(0.5, 3.0), pulse.scaled(0.18)).number_of_impacts
     5
     """
 

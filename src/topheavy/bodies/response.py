@@ -46,7 +46,7 @@ class Response:
 
     Examples
     --------
-    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, angular_frequency=2.0)
     >>> th.simulate(column, pulse.scaled(0.18)).number_of_impacts
     5
     """

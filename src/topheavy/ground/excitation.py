@@ -18,7 +18,7 @@ def no_excitation(value: object) -> ValueError:
     """Return the ValueError for an argument that is no ground motion."""
     return ValueError(
         f"excitation is {short_repr(value)}; expected a Pulse or a Record, for example "
-        'Pulse("one-sine", 0.3, 6.0) with 0.3 g and 6 rad/s'
+        'Pulse("one-sine", 0.3, period=1.0) with 0.3 g and 1 s'
     )
 
 

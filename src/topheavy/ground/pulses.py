@@ -9,7 +9,7 @@ from __future__ import annotations
 import difflib
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Never
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,15 +75,15 @@ class Pulse(Excitation):
         π/ω, "ricker-symmetric" and "ricker-antisymmetric" 4.5 · 2π/ω; "harmonic" (a sine) goes on.
     amplitude : float
         Peak acceleration in g; a negative one mirrors the pulse.
-    angular_frequency : float
-        ω, rad/s.
-    period : float
-        2π/ω, s, in place of ω.
+    angular_frequency, period : float
+        ω, rad/s, or 2π/ω, s: one of both, by its name.
     cycles : int
         Of a one-sine or one-cosine; 1 for other shapes.
 
     Raises
     ------
+    TypeError
+        For a third argument without a name, which could be a frequency or a period.
     ValueError
         For an unknown shape, an amplitude that is not finite or above 10⁶ g, a frequency or period
         that is not positive, unless there is one of the two, and for a number of cycles that is not
@@ -106,11 +106,17 @@ class Pulse(Excitation):
         self,
         shape: PulseShape,
         amplitude: float,
+        *unnamed: Never,
         angular_frequency: float | None = None,
-        *,
         period: float | None = None,
         cycles: int = 1,
     ) -> None:
+        if unnamed:
+            third = checks.short_repr(unnamed[0])
+            raise TypeError(
+                f"Pulse takes shape and amplitude without a name; expected period={third} for s, "
+                f"or angular_frequency={third} for rad/s, in the place of {third}"
+            )
         if (angular_frequency is None) == (period is None):
             raise ValueError(
                 f"angular_frequency is {angular_frequency} and period is {period}; expected one "

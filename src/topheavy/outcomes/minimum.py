@@ -64,7 +64,7 @@ class LowestOverturning:
 
     Examples
     --------
-    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, angular_frequency=2.0)
     >>> minimum = th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3)
     >>> minimum.bracket[0] < minimum.factor <= minimum.bracket[1]
     True
@@ -135,7 +135,7 @@ def lowest_overturning(
 
     Examples
     --------
-    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, angular_frequency=2.0)
     >>> round(th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3).acceleration, 6)
     0.191798
     """

@@ -90,7 +90,8 @@ def overturned_by(
 
     Examples
     --------
-    >>> th.overturned_by(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0), [0.15, 0.4])
+    >>> pulse = th.Pulse("one-sine", 1.0, angular_frequency=2.0)
+    >>> th.overturned_by(th.Column(0.5, 3.0), pulse, [0.15, 0.4])
     array([False,  True])
     """
     blocks = named_blocks(structure).values()
@@ -200,7 +201,7 @@ class FactorInterval:
 
     Examples
     --------
-    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, angular_frequency=2.0)
     >>> *_, last = th.overturning_intervals(column, pulse, (0.1, 1.0), resolution=0.01)
     >>> last.upper is None
     True
@@ -247,7 +248,7 @@ def overturning_intervals(
 
     Examples
     --------
-    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, angular_frequency=2.0)
     >>> intervals = th.overturning_intervals(column, pulse, (0.1, 1.0), resolution=0.01)
     >>> [interval.number_of_impacts for interval in intervals]
     [1, 0]

@@ -106,7 +106,8 @@ def simulate(
 
     Examples
     --------
-    >>> th.simulate(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0).scaled(0.2)).outcome
+    >>> pulse = th.Pulse("one-sine", 1.0, angular_frequency=2.0)
+    >>> th.simulate(th.Column(0.5, 3.0), pulse.scaled(0.2)).outcome
     'overturned'
     """
     block = as_block(structure)
@@ -194,7 +195,8 @@ def judge(
 
     Examples
     --------
-    >>> th.judge(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0).scaled(0.2)).overturned
+    >>> pulse = th.Pulse("one-sine", 1.0, angular_frequency=2.0)
+    >>> th.judge(th.Column(0.5, 3.0), pulse.scaled(0.2)).overturned
     True
     """
     checked_excitation(excitation, ends=True)
