@@ -233,6 +233,7 @@ localrules:
     beyond_figures,
     break_even,
     claims,
+    colonnades,
     comparison,
     designers,
     engine,
