@@ -243,7 +243,6 @@ def advance(lanes, begin, end, drive):
         if resting.any():
             uplift(some, resting, end, drive.ground)
             if not some[SIDE].any():  # all rest until the end
-                lanes[:, todo] = some
                 return
             x = some[X]
         phi, rate = drive.leap(some, x, end - x, drive)
@@ -270,8 +269,7 @@ def advance(lanes, begin, end, drive):
         some[X, ~lands] = np.where(cut, some[X] + limit, end)[~lands]
         if lands.any():
             land = some[:, lands]
-            dx = root_of(PHI, land, low[lands], limit[lands], drive)
-            impact(land, dx, drive)
+            impact(land, root_of(PHI, land, low[lands], limit[lands], drive), drive)
             some[:, lands] = land
         lanes[:, todo] = some
         todo = todo[some[X] < end]
