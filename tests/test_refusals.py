@@ -283,6 +283,10 @@ BAD = {  # what the message begins with or has, and what is called
         measure=arias
     ),
     "expected 2: take its value to the power 1/2": lambda: fragile(measure=arias),
+    "grows by 0.60206 with each factor of 2 on the motion, as a logarithm does; expected a measure "
+    "that doubles: take 10**(value/2), with the": lambda: fragile(
+        measure=lambda motion: 2.0 * np.log10(motion.peak_acceleration) - 9.0
+    ),
     "grows by 1 under a factor of 2 on": lambda: fragile(measure=lambda motion: 3.0),
     "expected 4 Records, one a motion": lambda: fragile(vertical=[UP]),
     "vertical[1] is None; expected a Record for": lambda: fragile(vertical=[UP, None, UP, UP]),

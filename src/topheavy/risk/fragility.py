@@ -71,6 +71,20 @@ class Fragility:
     0  Column 1    0.5         0.00
     1  Column 1    1.0         0.25
     2  Column 1    2.0         0.50
+
+    A measure Sa(T₁) in g, exact at eight times a sample for samples that straight lines join; here
+    its value for a step of 0.1 g, which is 0.1 (1 + e^(−πζ/√(1 − ζ²))) g:
+
+    >>> from scipy.signal import lsim
+    >>> def sa(motion, period=1.0, damping=0.05):
+    ...     w = 2.0 * np.pi / period
+    ...     oscillator = [[0, 1], [-w * w, -2 * damping * w]], [[0], [-1]], [[w * w, 0]], [[0]]
+    ...     time = np.linspace(0, motion.duration, 8 * motion.time.size - 7)
+    ...     return np.abs(lsim(oscillator, motion.accelerations(time), time)[1]).max()
+    >>> round(float(sa(th.Record(0.01, np.full(200, 0.1)))), 4)
+    0.1854
+    >>> th.fragility([th.Column(0.5, 3.0)], motions, [0.5, 1.0, 2.0], sa, resamples=100).measure
+    'sa'
     """
 
     curves: xarray.Dataset
@@ -171,6 +185,11 @@ def fragility(
     is fitted or if it is outside the levels; an end of an interval is NaN if too many resamples
     have no value.
 
+    OpenQuake (3.24.1) takes mean and standard deviation of the intensity itself: with the median m
+    and the dispersion β these are m e^(β²/2), and √(e^(β²) − 1) of this mean. It has PGV in cm/s.
+    Below its lowest level its probability stays what it is there, where a block does not uplift:
+    export a discrete function whose first value is 0.
+
     Parameters
     ----------
     structures : Structure, or several in a list or a mapping from names
@@ -181,8 +200,10 @@ def fragility(
         and not at the next, so that medians depend on the levels; take fifty.
     measure : {"PGV", "PGA"} or callable
         PGV in m/s, integrated from rest without baseline correction; PGA in g; or a function that
-        returns the intensity of a motion, in proportion to its scale (of Arias intensity, take the
-        square root).
+        returns the intensity of a motion, in proportion to its scale: of Arias intensity, take the
+        square root; of an intensity I = 2 log₁₀ a + c, 10^(I/2). `Fragility` has an example for
+        Sa(T₁). Compare a package's spectrum with it: some return relative accelerations, which are
+        in proportion too.
     vertical : sequence of Record, optional
         The vertical component of each motion, which starts with it: g, positive upward.
     scale_vertical : bool

@@ -110,9 +110,17 @@ def _check_proportional(
     name: str, measure: Callable[[Any], float], motion: Motion, value: float
 ) -> None:
     """Raise ValueError unless a measure doubles with its motion, as `fragility` scales motions."""
-    growth = checks.positive(name, measure(motion.scaled(2.0))) / checks.positive(name, value)
-    if abs(growth - 2.0) <= 2.0 * PROPORTIONALITY:
+    value, doubled = checks.finite(name, value), checks.finite(name, measure(motion.scaled(2.0)))
+    if value > 0.0 and abs(doubled / value - 2.0) <= 2.0 * PROPORTIONALITY:
         return
+    step = checks.finite(name, measure(motion.scaled(4.0))) - doubled
+    if step > 0.0 and abs(step - (doubled - value)) <= PROPORTIONALITY * step:
+        raise ValueError(
+            f"{name} grows by {step:.6g} with each factor of 2 on the motion, as a logarithm does; "
+            f"expected a measure that doubles: take 10**(value/{step / math.log10(2.0):.6g}), with "
+            "the value as it is before any rounding"
+        )
+    growth = checks.positive(name, doubled) / checks.positive(name, value)
     power = math.log2(growth)
     way_out = "another measure, in proportion to the scale"
     if abs(power) > PROPORTIONALITY and abs(power - round(power)) < 2.0 * PROPORTIONALITY:
