@@ -147,7 +147,11 @@ class Record(Excitation):
 
     @property
     def peak_velocity(self) -> float:
-        """PGV, m/s: max |v| at the samples, integrated from rest without baseline correction."""
+        """PGV, m/s: max |v| at the samples, integrated from rest without baseline correction.
+
+        Samples are joined by straight lines. An agency that integrates in the frequency domain may
+        print another value: 1.3 % more for a file of CSMIP with 50 samples a second.
+        """
         return float(np.abs(self._velocities()).max()) * STANDARD_GRAVITY
 
     def _velocities(self) -> NDArray[np.float64]:

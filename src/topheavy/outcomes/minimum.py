@@ -250,7 +250,8 @@ def overturning_spectrum(
     xarray.Dataset
         Over the period, or (structure, period) for several structures: acceleration (g; NaN if no
         amplitude up to the highest overturns) and after_impact, whether the structure overturns
-        after an impact (mode 1 of Zhang & Makris 2001) or without one (mode 2).
+        after an impact (mode 1 of Zhang & Makris 2001) or without one (mode 2). Since xarray
+        2025.11 a ratio of two results keeps the unit g: give it its own by `assign_attrs`.
 
     Examples
     --------
