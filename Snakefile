@@ -8,6 +8,7 @@ import os
 import re
 import sys
 import time
+from base64 import urlsafe_b64encode
 from functools import cache
 from glob import glob
 from importlib.util import find_spec
@@ -26,7 +27,7 @@ sys.path.insert(0, "src")
 from replication.claims import read_claims
 from replication.config import components, read_config, read_yaml
 from replication.sections import Paper
-from replication.sources import checksums, digest, imported, versions
+from replication.sources import checksums, digest, imported, is_sealed, versions
 
 min_version("9.27")
 if re.search(r"[^\w@%+=:,./-]", sys.executable):
@@ -35,7 +36,6 @@ if re.search(r"[^\w@%+=:,./-]", sys.executable):
         "environment, to a path without spaces"
     )
 BEGUN = time.time()
-os.environ["RUN"] = str(os.getpid())  # a step whose run has ended writes nothing
 # Jobs keep the compiled modules that they import, also where an image forbids it: two seconds a job.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
@@ -56,6 +56,7 @@ def code(script, *more, rule=""):
 
     These are, by checksum or version: the script and all that it imports; packages; inputs that no
     rule makes; and the rules that make its other inputs. A rule has the name of its script, or `rule`.
+    The digest of all this, and of its parameters, goes into the seals of its results.
     """
     for path in (script, *more):
         if not os.path.isfile(path):
@@ -66,7 +67,12 @@ def code(script, *more, rule=""):
             f"two rules are {name} in code(…); expected code(…, rule=…) with their names"
         )
     SCRIPTS[name] = (script, *more)
-    return lambda wildcards: dependencies(name)
+    return lambda wildcards: dependencies(name) | {f"rule {name}": digest_of(name)}
+
+
+def digest_of(name):
+    """Return the digest of what the results of a rule depend on."""
+    return digest(dependencies(name), parameters(name))
 
 
 @cache
@@ -78,7 +84,7 @@ def dependencies(name):
         checksums(modules)
         | versions(modules)
         | sources(name)
-        | {f"rule {n}": digest(dependencies(n), parameters(n)) for n in before}
+        | {f"rule {n}": digest_of(n) for n in before}
     )
 
 
@@ -134,14 +140,28 @@ def made(ending=""):
     return [path for path in paths if path.endswith(ending) and "{" not in path]
 
 
+def strays():
+    """Yield results that the job on Snakemake's record did not write, or not as they are.
+
+    Snakemake itself makes those of an interrupted job again.
+    """
+    for name in SCRIPTS:
+        for path in sum((glob(re.sub(r"{\w+}", "*", o)) for o in outputs(name)), []):
+            key = urlsafe_b64encode(path.encode()).decode()  # of a file in .snakemake
+            record = Path(".snakemake/metadata", key)
+            known = re.findall(
+                rf"'rule {name}': '(\w+)'",
+                record.read_text("utf-8") if record.is_file() else "",
+            )
+            if not is_sealed(path, known) and not os.path.isfile(
+                f".snakemake/incomplete/{key}"
+            ):
+                yield path
+
+
 PAPER = read_config(
     " over ".join(map(os.path.relpath, workflow.configfiles)), Paper, config
 )
-
-if os.path.isdir("results") and not os.path.isdir(".snakemake/metadata"):
-    sys.exit(
-        "results/ was made elsewhere, so that Snakemake cannot tell what is stale: make clean"
-    )
 
 
 include: "rules/paper.smk"
@@ -151,6 +171,13 @@ include: "rules/documents.smk"
 
 for name in SCRIPTS:
     sources(name)  # before any job
+if foreign := sorted(strays()):
+    few = f"rm {' '.join(foreign)}, or " if len(foreign) < 6 else ""
+    sys.exit(
+        f"{foreign[0]}{f' and {len(foreign) - 1} others are' if foreign[1:] else ' is'} not what a job "
+        "wrote here with the code and parameters on Snakemake's record (it was made elsewhere, or edited, or the "
+        f"record was renewed by --touch or cleaned up): {few}make clean. Then run again"
+    )
 
 
 rule all:

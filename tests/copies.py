@@ -20,8 +20,7 @@ def copied(folder: Path) -> Path:
 
 def run(tree: Path, *command: str) -> tuple[int, str]:
     """Run a command in the copy, whose library comes before an installed one."""
-    env = {name: text for name, text in os.environ.items() if name != "RUN"}
-    env |= {"PYTHONPATH": f"{tree / 'src'}{os.pathsep}{tree}"}
+    env = os.environ | {"PYTHONPATH": f"{tree / 'src'}{os.pathsep}{tree}"}
     done = subprocess.run(command, cwd=tree, env=env, capture_output=True, text=True, timeout=300)
     return done.returncode, done.stdout + done.stderr
 

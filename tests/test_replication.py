@@ -1,7 +1,6 @@
 """Verdicts, the digits of numbers, claims, and what is said of a mistake in a step or config."""
 
 import math
-import sys
 from functools import reduce
 from operator import getitem
 from textwrap import indent
@@ -10,7 +9,6 @@ from types import SimpleNamespace
 import pandas as pd
 import pytest
 
-from replication import job as jobs
 from replication import step
 from replication.claims import Claim, read_claims
 from replication.config import read_config, read_yaml
@@ -195,29 +193,6 @@ def test_mistake_in_a_step_is_named_in_its_log(tmp_path, compute, findings, mess
     told = log[0].read_text("utf-8")
     assert message in told
     assert told.startswith("tests/test_replication.py: ")
-
-
-def test_failed_write_leaves_no_file(tmp_path):
-    for process in (1, 99999999):  # one that is alive, and none
-        (tmp_path / f"a.csv.{process}.new").touch()
-    job = SimpleNamespace(rule="tiny", input=[], params={"code": list_of_modules()})
-    with pytest.raises(FileNotFoundError):
-        jobs.write(job, {str(tmp_path / "a.csv"): "x", str(tmp_path / "no" / "b.csv"): "x"})
-    assert [path.name for path in tmp_path.iterdir()] == ["a.csv.1.new"]
-
-
-@pytest.mark.parametrize("name", ["RUN", "PARENT"])
-def test_nothing_is_written_after_the_run_has_ended(tmp_path, monkeypatch, name):
-    job = SimpleNamespace(rule="tiny", input=[], params={"code": list_of_modules()})
-    monkeypatch.setattr(jobs, name, 99999999)
-    with pytest.raises(SystemExit, match="the run that began this step has ended"):
-        jobs.write(job, {str(tmp_path / "a.csv"): "x"})
-    assert not [*tmp_path.iterdir()]
-
-
-def list_of_modules():
-    files = [getattr(module, "__file__", None) for module in list(sys.modules.values())]
-    return [path for path in files if path]
 
 
 # Configs ------------------------------------------------------------------------------------------

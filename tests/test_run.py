@@ -1,13 +1,17 @@
 """A run repeats what changed and nothing else, and writes no result that could be stale.
 
-A copy of the repository with one more quick rule, run by plain Snakemake.
+A copy of the repository with two more quick rules, run by plain Snakemake.
 """
 
+import json
 import os
 import re
+from base64 import urlsafe_b64decode, urlsafe_b64encode
+from contextlib import chdir
 
 import pytest
 
+from replication.sources import write_seal
 from tests.copies import Edits, copied, snakemake
 
 RULE = """
@@ -25,6 +29,19 @@ rule tiny:
         "results/logs/tiny.log",
     script:
         "../src/steps/tiny.py"
+
+
+rule reader:
+    input:
+        "results/tables/tiny.csv",
+    output:
+        table="results/reader.csv",
+    params:
+        code=code("src/steps/reader.py"),
+    log:
+        "results/logs/reader.log",
+    script:
+        "../src/steps/reader.py"
 """
 SCRIPT = """
 from replication.step import run, truth
@@ -42,10 +59,22 @@ def findings(tiny, factor):
 if __name__ == "__main__":
     run(snakemake, compute, findings)
 """
+READER = """
+from replication.step import run
+
+
+def compute(tiny):
+    return tiny
+
+
+if __name__ == "__main__":
+    run(snakemake, compute)
+"""
 CLAIM = """- {id: tiny_positive, where: here, statement: 'Positive, times {allen[factor]}.',
   finding: tiny.positive}
 """
 TABLE = "results/tables/tiny.csv"
+RECORD = f".snakemake/metadata/{urlsafe_b64encode(TABLE.encode()).decode()}"
 
 
 @pytest.fixture(scope="module")
@@ -54,6 +83,7 @@ def tree(tmp_path_factory):
     folder = copied(tmp_path_factory.mktemp("run"))
     (folder / "data" / "numbers.csv").write_text("x\n1.0\n2.0\n", encoding="utf-8")
     (folder / "src" / "steps" / "tiny.py").write_text(SCRIPT, encoding="utf-8")
+    (folder / "src" / "steps" / "reader.py").write_text(READER, encoding="utf-8")
     (folder / "tests" / "reference").mkdir(exist_ok=True)
     (folder / "tests" / "reference" / "tiny.csv").write_text("x\n2.0\n4.0\n", encoding="utf-8")
     for path, text in (("rules/beyond.smk", RULE), ("paper/claims.yaml", CLAIM)):
@@ -72,7 +102,7 @@ def edited(tree):
 
 @pytest.fixture(scope="module")
 def finished(tree):
-    """Every result is there, empty, and Snakemake takes it as up to date."""
+    """Every result is there, empty and sealed, and Snakemake takes it as up to date."""
     code, words = snakemake(tree, "--summary")
     assert code == 0, words
     for line in words.splitlines():
@@ -80,9 +110,16 @@ def finished(tree):
             path = tree / line.partition("\t")[0]
             path.parent.mkdir(parents=True, exist_ok=True)
             path.touch() if path.suffix else path.mkdir(exist_ok=True)
-    (tree / ".snakemake" / "metadata").mkdir(parents=True, exist_ok=True)
+    edits = Edits(tree)
+    edits("Snakefile", "if foreign := sorted(strays())", "if foreign := []")
     code, words = snakemake(tree, "--touch", "--forceall")
     assert code == 0, words
+    edits.undo()
+    for path in (tree / ".snakemake" / "metadata").iterdir():
+        text = path.read_text("utf-8")
+        digest = re.search(rf"'rule {json.loads(text)['rule']}': '(\w+)'", text)[1]
+        with chdir(tree):
+            write_seal(urlsafe_b64decode(path.name).decode(), digest)
     return tree
 
 
@@ -142,6 +179,44 @@ def test_change_elsewhere_repeats_nothing_and_a_mistake_is_told_before_any_job(f
     assert "tiny (src/steps/tiny.py) reads results/tables/tinny.csv, which no rule makes" in words
 
 
+def lose_the_record(tree):
+    (tree / RECORD).rename(tree / "lost")
+
+
+def touch_after_a_change(tree):
+    text = (tree / RECORD).read_text("utf-8")
+    (tree / RECORD).write_text(re.sub(r"('rule tiny': ')\w+", r"\1" + 12 * "0", text), "utf-8")
+
+
+def edit_the_table(tree):
+    (tree / TABLE).write_text("x\n3.0\n", "utf-8")
+    os.utime(tree / TABLE, (0, 0))
+
+
+@pytest.mark.parametrize("change", [lose_the_record, touch_after_a_change, edit_the_table])
+def test_result_that_the_job_on_record_did_not_write_is_refused(finished, edited, change):
+    for path in (RECORD, TABLE):
+        edited(path, "", "")  # restored
+    change(finished)
+    code, words = snakemake(finished, "--dry-run", "figures/where.svg")
+    assert code == 1
+    assert f"{TABLE} is not what a job wrote here" in words
+    assert f"rm {TABLE}, or make clean" in words
+
+
+def test_results_of_a_job_that_died_are_made_again(finished, edited):
+    edited(RECORD, "", "")
+    edited(TABLE, "", "")
+    (finished / TABLE).write_text("x\n3.0\n", "utf-8")
+    mark = finished / RECORD.replace("metadata", "incomplete")
+    mark.parent.mkdir(exist_ok=True)
+    mark.write_text("{}", "utf-8")
+    code, words = snakemake(finished, "--dry-run", TABLE)
+    mark.unlink()
+    assert code == 0, words
+    assert re.search("^tiny +1$", words, re.MULTILINE)
+
+
 def test_step_that_loads_an_undeclared_module_stops_and_writes_nothing(tree, edited):
     load = "    __import__('topheavy.risk')\n    return numbers"
     edited("src/steps/tiny.py", "    return numbers", load)
@@ -151,10 +226,30 @@ def test_step_that_loads_an_undeclared_module_stops_and_writes_nothing(tree, edi
     assert not (tree / TABLE).exists()
 
 
-def test_results_of_elsewhere_are_refused(finished):
-    metadata = finished / ".snakemake" / "metadata"
-    metadata.rename(finished / "elsewhere")
-    code, words = snakemake(finished, "--dry-run", TABLE)
-    (finished / "elsewhere").rename(metadata)
+def test_step_stops_where_a_module_was_changed_after_the_run_began(tree, edited):
+    path = "src/topheavy/bodies/structures.py"
+    edited(path, "", "")  # restored
+    edited(
+        "src/steps/tiny.py",
+        "    return numbers",
+        f"    open('{path}', 'a').write('#')\n    return numbers",
+    )
+    code, words = snakemake(tree, TABLE)
     assert code == 1
-    assert "results/ was made elsewhere" in words
+    assert f"{path} was changed after the run began: run again" in words
+    assert not (tree / TABLE).exists()
+
+
+def test_step_stops_where_an_input_is_not_what_its_rule_wrote_for_this_run(tree, edited):
+    spoil = (
+        f"    open('{TABLE}', 'a').write('9.0')\n    return tiny"  # as a process of a dead run does
+    )
+    edited("src/steps/reader.py", "    return tiny", spoil)
+    code, words = snakemake(tree, "results/reader.csv")
+    assert code == 1
+    assert f"rule reader reads {TABLE}, which its rule did not write" in words
+    assert not (tree / "results/reader.csv").exists()
+    (tree / TABLE).unlink()
+    edited("src/steps/reader.py", spoil, "    return tiny")
+    code, words = snakemake(tree, "results/reader.csv")
+    assert code == 0, words

@@ -1,17 +1,17 @@
-"""A job of Snakemake around its work: its log, and its results written at once or not at all."""
+"""A job of Snakemake around its work: its log, and what it may read and write."""
 
-import os
 import sys
+import time
 import traceback
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
 
-PARENT = os.getppid()
-"""The parent of this process when the module was loaded."""
-RUN = int(os.environ.get("RUN", PARENT))
-"""The process of Snakemake; the Snakefile sets the variable."""
+from replication.sources import checksums, is_sealed, write_seal
+
+BEGUN = time.time()
+"""Time at which this process loaded the module, s; `replication` comes before the library."""
 ROOT = Path(__file__).resolve().parents[2]
 OURS = ("src", "figures")
 
@@ -40,7 +40,7 @@ def log_to(path: str) -> Iterator[None]:
 
 
 def write(job: Any, made: Mapping[str, str | bytes], modules: Iterable[str] = ()) -> None:
-    """Write files beside their places and rename them.
+    """Write the results of a job, with their seals; Snakemake removes those of a job that fails.
 
     `modules` are the files of modules that another process loaded for this job.
 
@@ -48,9 +48,29 @@ def write(job: Any, made: Mapping[str, str | bytes], modules: Iterable[str] = ()
     ------
     SystemExit
         When this process loaded a module of the repository that `code` of its rule does not name: a
-        change there would leave the results stale. When the run that began the step has ended:
-        a later run may have written these files already.
+        change there would leave the results stale. When a file in `code` is no longer as it was
+        when the run began, or an input has another seal than its rule writes for this run.
     """
+    code = job.params["code"]
+    _refuse_undeclared(job, modules)
+    for path, digest in code.items():
+        if Path(path).is_file() and (
+            checksums([path])[path] != digest or Path(path).stat().st_mtime > BEGUN
+        ):
+            stop(f"{path} was changed after the run began: run again")
+    for path in map(str, job.input):
+        if path not in code and not is_sealed(path, code.values()):
+            stop(
+                f"rule {job.rule} reads {path}, which its rule did not write with this code and "
+                f"these parameters: rm {path}, then run again"
+            )
+    for path, content in made.items():
+        Path(path).write_bytes(content.encode() if isinstance(content, str) else content)
+    for path in map(str, job.output):
+        write_seal(path, code[f"rule {job.rule}"])
+
+
+def _refuse_undeclared(job: Any, modules: Iterable[str]) -> None:
     declared = {Path(path).resolve() for path in [*job.input, *job.params.get("code", [])]}
     files = {getattr(module, "__file__", None) for module in list(sys.modules.values())}
     loaded = {Path(path).resolve() for path in {*files, *modules} if path}
@@ -70,26 +90,3 @@ def write(job: Any, made: Mapping[str, str | bytes], modules: Iterable[str] = ()
             f"rule {job.rule} loaded {', '.join(gap)}, which its `code` does not name: a change "
             "there would leave its results stale. Import it by a statement, or name it in `code`"
         )
-    if os.getppid() != PARENT or not _alive(RUN):
-        stop("the run that began this step has ended: nothing is written")
-    new = {path: f"{path}.{os.getpid()}.new" for path in made}
-    for path in made:
-        for left in Path(path).parent.glob(f"{Path(path).name}.*.new"):
-            if not _alive(int(left.name.split(".")[-2])):  # by a process that was killed
-                left.unlink()
-    try:
-        for path, content in made.items():
-            Path(new[path]).write_bytes(content.encode() if isinstance(content, str) else content)
-        for path in made:
-            os.replace(new[path], path)
-    finally:
-        for path in new.values():
-            Path(path).unlink(missing_ok=True)
-
-
-def _alive(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except OSError:
-        return False
-    return True

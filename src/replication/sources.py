@@ -1,4 +1,8 @@
-"""What the results of a rule depend on: modules that its script imports, versions, checksums."""
+"""What the results of a rule depend on: modules that its script imports, versions, checksums.
+
+A result has a seal: the digest of the code and parameters of the job that wrote it, and a checksum
+of its content. Snakemake's own record in .snakemake can be lost or renewed without the result.
+"""
 
 import ast
 import json
@@ -42,6 +46,29 @@ def versions(modules: Iterable[str]) -> dict[str, str]:
 def digest(*contents: Any) -> str:
     """Return a checksum of parameters."""
     return sha256(repr(contents).encode()).hexdigest()[:12]
+
+
+def is_sealed(path: str, digests: Iterable[str]) -> bool:
+    """Return whether a job with one of some digests wrote a result as it is."""
+    file = _seal_of(path)
+    text = file.read_text("utf-8") if file.is_file() else ""
+    digest = text.partition(" ")[0]
+    return digest in digests and text == _seal(path, digest)
+
+
+def write_seal(path: str, digest: str) -> None:
+    """Seal a result of a job."""
+    _seal_of(path).parent.mkdir(parents=True, exist_ok=True)
+    _seal_of(path).write_text(_seal(path, digest), "utf-8")
+
+
+def _seal_of(path: str) -> Path:
+    return Path("results/seals", path.replace("/", "."))
+
+
+def _seal(path: str, digest: str) -> str:
+    content = Path(path).read_bytes() if Path(path).is_file() else b""  # none of a folder
+    return f"{digest} {sha256(content).hexdigest()}"
 
 
 @cache
