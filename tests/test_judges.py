@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from documents import check, publish
+from documents.stated import misstated
 from replication.sources import checksums
 from replication.step import findings_text
 from replication.verdicts import unexpected
@@ -18,9 +19,11 @@ from tests.cases import ROOT, published
 @pytest.fixture
 def tree(tmp_path, monkeypatch):
     """A copy of what is published, with the parameters of the config as it is."""
-    for name in ("src", "data", "figures", "paper"):
+    for name in ("src", "figures", "paper", "pyproject.toml"):
         (tmp_path / name).symlink_to(ROOT / name)
-    for name in ("docs", "tests/reference", "config"):
+    for name in ("README.md", "LICENSE", "CITATION.cff"):
+        shutil.copy(ROOT / name, tmp_path)
+    for name in ("docs", "tests/reference", "config", "data"):
         shutil.copytree(ROOT / name, tmp_path / name)
     monkeypatch.chdir(tmp_path)
     checksums.__globals__["_checksum"].cache_clear()  # of the same paths elsewhere
@@ -38,7 +41,8 @@ def sealed(tree):
 
 def named(part, path):
     if part is check.rewritten:
-        return {*part(check.published(published()), path.removeprefix("docs/"))}
+        rows = check.published(published())
+        return {*part(rows, published(), path.removeprefix("docs/"))}
     return {*part()}
 
 
@@ -54,18 +58,43 @@ def named(part, path):
          check.of_another_run),
         ("docs/verdicts.md", "refuted", "confirmed", check.rewritten),
         ("docs/explorer.html", "9.81", "8.91", check.rewritten),
+        ("docs/numbers.md", "3.79364", "3.97364", check.rewritten),
+        ("docs/vase.svg", "<title>", "<title>no ", check.rewritten),
+        ("docs/report.pdf", "%PDF", "%FDP", check.rewritten),
     ],
 )  # fmt: skip
 def test_change_is_named_although_its_checksum_is_renewed(tree, path, old, new, part):
     before, file = named(part, path), tree / path
-    text = file.read_text("utf-8")
-    assert old in text
-    file.write_text(text.replace(old, new, 1), "utf-8")
+    text = file.read_bytes()
+    assert old.encode() in text
+    file.write_bytes(text.replace(old.encode(), new.encode(), 1))
     assert any(path in line for line in check.unsealed())
     sealed(tree)
     checksums.__globals__["_checksum"].cache_clear()
     assert not any(path in line for line in check.unsealed())
     assert any(file.name in line for line in named(part, path) - before)
+
+
+@pytest.mark.parametrize(
+    ("path", "old", "new"),
+    [
+        ("README.md", "numbers.md#trilith.frame_frequency_parameter", "numbers.md#trilith.frame"),
+        ("README.md", "numbers.md#motions.gain_temple", "numbers.md#motions.gain_trilith"),
+        ("README.md", "ST.1943-541X.0000933", "ST.1943-541X.0000393"),
+        ("CITATION.cff", "\nversion: 0.1.0", "\nversion: 1.0.0"),
+        ("CITATION.cff", "license: MIT", "license: GPL-3.0-only"),
+        ("LICENSE", "WITHOUT WARRANTY", "WITH WARRANTY"),
+        ("docs/LICENSE-CC-BY", "Attribution 4.0", "Attribution-NonCommercial 4.0"),
+        ("data/records/README.md", "| 0.319 |", "| 0.391 |"),
+    ],
+)
+@pytest.mark.usefixtures("tree")
+def test_what_other_files_state_is_what_results_records_and_files_say(path, old, new):
+    assert not [*misstated(published())]
+    text = Path(path).read_text("utf-8")
+    assert old in text
+    Path(path).write_text(text.replace(old, new, 1), "utf-8")
+    assert any(path in line for line in misstated(published()))
 
 
 def test_file_without_checksum_and_checksum_without_file_are_named(tree):

@@ -2,16 +2,19 @@
 
 Files have the checksums of docs/SHA256SUMS. Parameters are those of config/config.yaml. Findings
 are drawn again from the tables by the steps that drew them, every claim is judged again, and
-verdicts, both pages and the animation are made again.
+pictures, documents, lists, both pages and the animation are made again. README's links lead to the
+numbers that they show.
 """
 
 import hashlib
 import json
 import runpy
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from documents.stated import misstated
 from replication.claims import read_claims
 from replication.config import components, read_config, read_yaml
 from replication.sections import Paper
@@ -93,9 +96,11 @@ def _parts(content: Any) -> Iterator[Any]:
             yield from _parts(part)
 
 
-def rewritten(rows: list[dict[str, Any]], *names: str) -> Iterator[str]:
-    """Yield each page, of all or of some names, that another one comes of, from what there is."""
-    from documents import animation, explorer, functions, lists
+def rewritten(
+    rows: list[dict[str, Any]], results: dict[str, dict[str, Any]], *names: str
+) -> Iterator[str]:
+    """Yield each published file, of some names, that tables and sources give otherwise."""
+    from documents import animation, explorer, functions, lists, publish, remade
 
     config, style = read_config("config/config.yaml", Paper), "figures/style.mplstyle"
     film = config["animation"], config["structures"]["temple"]
@@ -108,9 +113,16 @@ def rewritten(rows: list[dict[str, Any]], *names: str) -> Iterator[str]:
         "functions.html": lambda: functions.compute(style, records)["page"],
         "animation.gif": lambda: animation.compute(*film, style)["gif"],
     }
-    for name in names or pages:
-        made = pages[name]()
-        lines = (made.encode() if isinstance(made, str) else made).split(b"\n")
+    drawn = ["numbers.md", "report.pdf", "supplement.pdf", *map("{}.svg".format, publish.PICTURES)]
+    made = {name: pages[name]() for name in names or pages if name in pages}
+    if wanted := [name for name in names or drawn if name not in pages]:
+        with tempfile.TemporaryDirectory() as folder:
+            all_of_them = remade.remade(
+                Path(folder), config, read("rules"), results, rows, REFERENCE
+            )
+        made |= {name: all_of_them[name] for name in wanted}
+    for name, content in made.items():
+        lines = (content.encode() if isinstance(content, str) else content).split(b"\n")
         shown = (DOCS / name).read_bytes().split(b"\n")
         if shown != lines:
             pairs = zip([*shown, b""], [*lines, b""], strict=False)
@@ -118,17 +130,19 @@ def rewritten(rows: list[dict[str, Any]], *names: str) -> Iterator[str]:
             yield f"{DOCS / name}, line {at}, is not what tables and sources give: {MEND}"
 
 
-def faults(rows: list[dict[str, Any]]) -> Iterator[str]:
+def faults(results: dict[str, dict[str, Any]]) -> Iterator[str]:
     """Yield a line for each thing that is published and is not as it should be."""
+    rows = published(results)
     yield from unsealed()
     yield from of_another_run()
     yield from unexpected(rows)
-    yield from rewritten(rows)
+    yield from misstated(results)
+    yield from rewritten(rows, results)
 
 
 if __name__ == "__main__":
-    rows = published()
-    if wrong := [*faults(rows)]:
+    results = findings(read("rules"))
+    if wrong := [*faults(results)]:
         raise SystemExit("\n".join(wrong))
-    print(*counts(rows), sep="\n")
+    print(*counts(published(results)), sep="\n")
     print("Each verdict, from the published tables, is the one that paper/claims.yaml expects.")

@@ -120,6 +120,7 @@ class Run(NamedTuple):
     findings: Mapping[str, Mapping[str, Any]] = {}
     config: Mapping[str, Any] = {}
     quotes: Iterable[Quote] = ()
+    tables: Path = Path("results/tables")
 
 
 # Numbers ------------------------------------------------------------------------------------------
@@ -217,7 +218,7 @@ def _cells(run: Run, to: Docs) -> Iterator[str]:
     yield "## Tables\n"
     makers = {Path(path).stem: rule for rule in run.rules.values() for path in rule["tables"]}
     for table, cells in sorted(quoted.items()):
-        text = Path(f"results/tables/{table}.csv").read_text("utf-8")
+        text = (run.tables / f"{table}.csv").read_text("utf-8")
         rows = list(csv.DictReader(text.splitlines()))
         script = makers[table]["script"]
         place = to.line(script, table, "compute")

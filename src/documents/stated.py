@@ -1,0 +1,71 @@
+"""What README and other files state beside a run: numbers behind links, DOI, version, licences."""
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+from replication.config import read_yaml
+from topheavy import read_record
+
+LICENCES = {  # texts below the line of the holder, and their SHA-256
+    "LICENSE": "37dbbcd58d8e438706b6b0ebd64c7e1f19223e1adccaa438b90e8cf937a53eab",
+    "docs/LICENSE-CC-BY": "a5349a209822149c2b06a142dd88e3630c4765310260fc9d09928cac75552be9",
+}
+DOI = re.compile(r"10\.\d{4}/[^\s\"}]*\.\d{7}")
+
+
+def misstated(results: Mapping[str, Any]) -> Iterator[str]:
+    """Yield each statement that is not what findings, records or other files say."""
+    yield from links(Path("README.md").read_text("utf-8"), results)
+    yield from records(Path("data/records"))
+    citation = read_yaml("CITATION.cff")
+    project = tomllib.loads(Path("pyproject.toml").read_text("utf-8"))["project"]
+    for key, known in (("version", project["version"]), ("license", project["license"])):
+        if citation[key] not in known.split(" AND "):
+            yield f"CITATION.cff: {key} {citation[key]}; pyproject.toml has {known}"
+    doi = citation["references"][0]["doi"]
+    for path in ("README.md", "paper/references.bib"):
+        if doi not in DOI.findall(unquote(Path(path).read_text("utf-8"))):
+            yield f"{path}: the DOI of the paper is not there; CITATION.cff has {doi}"
+    for path, digest in LICENCES.items():
+        text = Path(path).read_text("utf-8").partition("The topheavy developers\n")[2]
+        if sha256(text.encode()).hexdigest() != digest:
+            yield f"{path}: another text of the licence: git checkout {path}"
+
+
+def links(text: str, results: Mapping[str, Any]) -> Iterator[str]:
+    """Yield each link to docs/numbers.md that leads to no result, or to another than it shows."""
+    for shown, anchor in re.findall(r"\[([^]]*)\]\(docs/numbers\.md#([^)]*)\)", text):
+        rule, _, name = anchor.partition(".")
+        if name not in results.get(rule, {}):
+            yield f"README.md: [{shown}] leads to {anchor}, which is no result: docs/numbers.md"
+            continue
+        known = [*_numbers(results[rule][name])]
+        for number in re.findall(r"\d+(?:\.\d+)?", shown):
+            digits = len(number.partition(".")[2])
+            if number not in {f"{abs(k * x):.{digits}f}" for x in known for k in (1, 100)}:
+                yield f"README.md: [{shown}] leads to {anchor}, which has no {number}"
+
+
+def _numbers(content: Any) -> Iterator[float]:
+    """Yield the numbers of a finding and of its parts."""
+    if isinstance(content, dict | list | tuple):
+        for part in content.values() if isinstance(content, dict) else content:
+            yield from _numbers(part)
+    elif isinstance(content, int | float):
+        yield content
+
+
+def records(folder: Path) -> Iterator[str]:
+    """Yield each record whose row in README is missing, or has other numbers."""
+    text = (folder / "README.md").read_text("utf-8")
+    for path in sorted(folder.glob("*.AT2")):
+        record = read_record(path)
+        peak = f"{record.peak_acceleration:.3f}"
+        end = f" | {len(record.acceleration)} | {record.time_step:g} | {peak} | "
+        if not re.search(rf"^\| {re.escape(path.name)} \|.*{re.escape(end)}", text, re.MULTILINE):
+            yield f"{folder}/README.md: no row of {path.name} with{end}".rstrip(" |")
