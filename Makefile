@@ -8,6 +8,7 @@ RUN     = $(UV) run --locked --no-dev
 DEV     = $(UV) run --locked
 # Each job is a Python, which would compile modules anew if they were not kept.
 export PYTHONDONTWRITEBYTECODE :=
+export NAME DIR
 
 .DEFAULT_GOAL := help
 .PHONY: help reproduce unlock check audit test lint study publish notebooks faults archive cluster-test clean
@@ -51,16 +52,16 @@ lint: | $(UV) ## check style, types, spelling and the rules; changes nothing
 EXPORT = --no-hashes --no-header --no-annotate --no-emit-project
 
 study: | $(UV) ## copy studies/bent, as a repository of its own: make study DIR=../bridge NAME=bridge
-	@expr "$(NAME)" : '[a-z][a-z0-9_]*$$' >/dev/null && case "$(NAME)" in results|dist|wheels|tests|topheavy) false;; esac || \
-	  { echo "NAME is '$(NAME)'; expected lower case, digits, _, and none of results, dist, wheels, tests, topheavy"; exit 1; }
-	@test -n "$(DIR)" && test ! -e "$(DIR)" || { echo "DIR is '$(DIR)'; expected the path of a new folder"; exit 1; }
-	@mkdir "$(DIR)" && cp LICENSE .gitignore data/records/el_centro_1940_NS.AT2 "$(DIR)"
-	@tar -C studies/bent --exclude results --exclude '.snakemake' --exclude '.venv' --exclude '*cache*' -c . | tar -C "$(DIR)" -x
-	@$(UV) build --quiet --wheel --no-create-gitignore --out-dir "$(DIR)/wheels"
-	@cd "$(DIR)" && sed -i.old 's|"bent"|"$(NAME)"|; s|path = "../.."|path = "$(WHEEL)"|' pyproject.toml && \
-	  sed -i.old 's|../../data/records/||' config.yaml && sed -i.old 's|bent$$|$(NAME)|' README.md CITATION.cff && rm *.old
-	@$(UV) lock --quiet --project "$(DIR)"
-	@ls -A "$(DIR)" && echo "Next: cd $(DIR) && $(abspath $(UV)) run snakemake --cores 2"
+	@expr "$$NAME" : '[a-z][a-z0-9_]*$$' >/dev/null && case "$$NAME" in results|dist|wheels|tests|topheavy) false;; esac || \
+	  { echo "NAME is '$$NAME'; expected lower case, digits, _, and none of results, dist, wheels, tests, topheavy"; exit 1; }
+	@test -n "$$DIR" && test ! -e "$$DIR" || { echo "DIR is '$$DIR'; expected the path of a new folder"; exit 1; }
+	@mkdir "$$DIR" && cp LICENSE .gitignore data/records/el_centro_1940_NS.AT2 "$$DIR"
+	@tar -C studies/bent --exclude results --exclude '.snakemake' --exclude '.venv' --exclude '*cache*' -c . | tar -C "$$DIR" -x
+	@$(UV) build --quiet --wheel --no-create-gitignore --out-dir "$$DIR/wheels"
+	@cd "$$DIR" && sed -i.old 's|"bent"|"'"$$NAME"'"|; s|path = "../.."|path = "$(WHEEL)"|' pyproject.toml && \
+	  sed -i.old 's|../../data/records/||' config.yaml && sed -i.old 's|bent$$|'"$$NAME"'|' README.md CITATION.cff && rm *.old
+	@$(UV) lock --quiet --project "$$DIR"
+	@ls -A "$$DIR" && printf "Next: cd '%s' && '%s' run snakemake --cores 2\n" "$$DIR" "$(abspath $(UV))"
 WHEEL = wheels/topheavy-$(shell sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml)-py3-none-any.whl
 
 publish: | $(UV) ## copy the results of a run to docs/ and tests/reference/; read the diff, then commit it
@@ -72,7 +73,8 @@ notebooks: | $(UV) ## open the notebooks in JupyterLab
 faults: | $(UV) ## put deliberate errors into a copy, one at a time: does a test catch each?
 	@$(DEV) python tests/faults/run.py -j "$(CORES)"
 
-archive: ## pack the commit into dist/, with the checksums of its files
+archive: ## pack the commit into dist/, with the checksums of its files; snakemake --archive packs too little
+	@test -e .git || { echo "This folder is no clone of git, so that it has no commit to pack"; exit 1; }
 	@mkdir -p dist && git archive --prefix=topheavy/ --output=dist/topheavy.zip HEAD
 	@git ls-files -z | xargs -0 sha256sum > dist/SHA256SUMS
 
