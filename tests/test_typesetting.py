@@ -1,6 +1,7 @@
 """Documents from the published tables: every number has a source, every sentence a meaning."""
 
 import json
+import math
 import shutil
 from copy import deepcopy
 
@@ -59,6 +60,7 @@ MEANINGLESS = {  # what the key is changed to, and what follows in results/
     "motions.mass_ratios": ("report", [0.5, 2.0], without("motions_gains", "mass_ratio", 1.0)),
     "vase.mass_ratios": ("report", [0.0], without_finding("vase", "minimum_at_mass_ratio_one")),
     "records.capacity.mass_ratios": ("report", [0.0], without_finding("records", "gain_1")),
+    "guarantee.mass_ratios": ("report", [0.0, 1.0], without("guarantee", "mass_ratio", math.inf)),
     "spectra.slendernesses": ("report", [5.0], None),
     "motions.scenarios": ("report", CONFIG["motions"]["scenarios"] * 2, None),
     "gaps.checks": ("supplement", [{"friction": 5.0}], None),
