@@ -78,5 +78,4 @@ def draw(guarantee, guarantee_visits, guarantee_order):
     gains(axes["d"], guarantee_visits)
     titles = ["One motion until first impacts", "Guaranteed velocities", "Gain over the column"]
     letter([axes[key] for key in "acd"], titles)
-    figure.get_layout_engine().set(rect=(0, 0, 0.945, 1))
     return figure
