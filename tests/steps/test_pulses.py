@@ -198,8 +198,16 @@ def test_interval_narrower_than_the_first_search_is_found(gamma, ratio, narrow, 
     block, pulse = cycles.one_line(5, 9.462322, ratio, gamma)
     (lowest,) = falls.lowest_of([block], [pulse], 3.0, 0.02)
     assert lowest.wide_lower == pytest.approx(wide, abs=1e-3)
-    lowest = falls.searched_finely(block, pulse, lowest, 3.0)
+    lowest = falls.searched_finely(block, pulse, lowest, 3.0, 0.02)
     assert (lowest.lower, lowest.upper) == pytest.approx(narrow, abs=1e-4)
+
+
+def test_comb_of_narrow_intervals_is_not_a_wide_one():
+    block, pulse = cycles.one_line(5, 9.462322, 3.9375, 2.0)
+    (lowest,) = falls.lowest_of([block], [pulse], 3.0, 0.02)
+    assert falls.confirmed(block, pulse, lowest, 3.0, 0.02) == lowest
+    comb = lowest._replace(wide_lower=lowest.wide_lower - 0.03)
+    assert falls.confirmed(block, pulse, comb, 3.0, 0.02)[2:4] == pytest.approx(lowest[2:4])
 
 
 def test_three_counts_of_a_fall_differ_where_an_interval_is_narrow():

@@ -54,7 +54,7 @@ def minima(settings: Mapping[str, Any]) -> pd.DataFrame:
         if not coarse:
             break
         for at in coarse:
-            rows[at] = searched_finely(*one_line(*at), rows[at], spec["highest"])
+            rows[at] = searched_finely(*one_line(*at), rows[at], spec["highest"], spec["wide"])
         print(f"{len(coarse)} lines searched finely", flush=True)
     return pd.DataFrame(
         [(*at, *lowest) for at, lowest in rows.items()], columns=[*PLACE, "mass_ratio", *FOUND]
@@ -196,7 +196,7 @@ def two_pulses(settings: Mapping[str, Any]) -> pd.DataFrame:
         for gamma in case["mass_ratios"]:
             block = RockingFrame(column, gamma).block()
             (lowest,) = lowest_of([block], [motion], highest, wide)
-            lowest = searched_finely(block, motion, lowest, highest)
+            lowest = searched_finely(block, motion, lowest, highest, wide)
             rows.append(labels | {"mass_ratio": gamma} | dict(zip(FOUND, lowest, strict=True)))
             for side, expected in ((-CLOSE, False), (CLOSE, True)):
                 sides.append((block, motion, None, lowest.wide_lower + side, expected))

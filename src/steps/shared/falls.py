@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from steps.shared.lobes import Lobe, drawn, record_of
-from topheavy import Pulse, Record, RockingBlock
+from topheavy import FactorInterval, Pulse, Record, RockingBlock, overturned_by
 from topheavy.outcomes.search import intervals_of_many
 
 GRID = 1.0 / 2000.0
@@ -55,30 +55,48 @@ def lowest_of(
 ) -> list[Lowest]:
     """Return the lowest intervals of each block under its motion; no wide interval is missed."""
     every = intervals_of_many(blocks, motions, (1.0, highest), resolution=wide, most_impacts=0)
-    found = []
-    for intervals in every:
-        ends = [(one.lower[1], one.upper[0] if one.upper else math.inf) for one in intervals]
-        none = (math.inf, math.inf)
-        first_wide = next((pair for pair in ends if pair[1] - pair[0] >= wide), none)
-        found.append(Lowest(*(ends[0] if ends else none), *first_wide, wide))
-    return found
+    return [_lowest(intervals, wide, wide) for intervals in every]
+
+
+def _lowest(intervals: Sequence[FactorInterval], wide: float, searched: float) -> Lowest:
+    ends = [(one.lower[1], one.upper[0] if one.upper else math.inf) for one in intervals]
+    none = (math.inf, math.inf)
+    first_wide = next((pair for pair in ends if pair[1] - pair[0] >= wide), none)
+    return Lowest(*(ends[0] if ends else none), *first_wide, searched)
+
+
+def confirmed(
+    block: RockingBlock, motion: Pulse | Record, lowest: Lowest, highest: float, wide: float
+) -> Lowest:
+    """Return the lowest intervals if `GRID` confirms the wide one; else those of a search by it.
+
+    On a coarse grid a comb of narrow intervals can look like a wide one.
+    """
+    if lowest.wide_lower == math.inf:
+        return lowest
+    factors = np.arange(lowest.wide_lower + GRID, min(lowest.wide_upper, highest), GRID)
+    if overturned_by(block, motion, factors).all():
+        return lowest
+    (intervals,) = intervals_of_many(
+        [block], [motion], (1.0, highest), resolution=GRID, most_impacts=0
+    )
+    return _lowest(intervals, wide, GRID)
 
 
 def searched_finely(
-    block: RockingBlock, motion: Pulse | Record, lowest: Lowest, highest: float
+    block: RockingBlock, motion: Pulse | Record, lowest: Lowest, highest: float, wide: float
 ) -> Lowest:
-    """Return the lowest intervals after a search by `GRID` below those that are known."""
+    """Return the lowest intervals after a search by `GRID`, below them and in the wide one."""
+    lowest = confirmed(block, motion, lowest, highest, wide)
     last = min(lowest.lower, highest)
-    lowest = lowest._replace(searched=GRID)
-    if last <= 1.0 + GRID:
-        return lowest
+    if lowest.searched == GRID or last <= 1.0 + GRID:
+        return lowest._replace(searched=GRID)
     (intervals,) = intervals_of_many(
         [block], [motion], (1.0, last), resolution=GRID, most_impacts=0
     )
-    for interval in intervals:
-        if interval.upper and interval.upper[1] < last:
-            return lowest._replace(lower=interval.lower[1], upper=interval.upper[0])
-    return lowest
+    ends = [(one.lower[1], one.upper[0]) for one in intervals if one.upper and one.upper[1] < last]
+    lower, upper = [*ends, (lowest.lower, lowest.upper)][0]
+    return lowest._replace(lower=lower, upper=upper, searched=GRID)
 
 
 def fall(lighter: Lowest, heavier: Lowest) -> Fall:
@@ -105,10 +123,12 @@ def strict_fall(
 
     The fine search runs only where a coarse one leaves a fall: most motions cost the coarse one.
     """
-    pair = lowest_of([lighter, heavier], [motion, motion], highest, wide)
-    if not fall(*pair).strict > 0.0:
-        return 0.0
-    return max(0.0, fall(searched_finely(lighter, motion, pair[0], highest), pair[1]).strict)
+    light, heavy = lowest_of([lighter, heavier], [motion, motion], highest, wide)
+    if fall(light, heavy).strict > 0.0:
+        heavy = confirmed(heavier, motion, heavy, highest, wide)
+    if fall(light, heavy).strict > 0.0:
+        light = searched_finely(lighter, motion, light, highest, wide)
+    return max(0.0, fall(light, heavy).strict)
 
 
 def share_that_stays(
