@@ -69,6 +69,9 @@ def test_what_is_published_is_confirmed(folder):
         ("README.md", "R̂ is at most [1.5]", "R̂ is at most [1.6]", "parameters", "size"),
         ("tests/reference/trilith_numbers.csv", "3.79363632", "3.83157", "trilith", "frame_freq"),
         ("tests/reference/mass_ratio.csv", "\n1,0.866025404", "\n1,0.8747", "parameters", "(23)"),
+        ("README.md", "was shaken below", "was shaken above", "trilith", "shaken below"),
+        ("README.md", "the inertia by 1 + 3γ", "the inertia by 1 + 2γ", "parameters", "1 \\+ 3γ"),
+        ("README.md", "raises the peak ground velocity", "raises the PGA", "gains", "velocity at"),
         (
             "README.md",
             "| The trilith of",
