@@ -101,7 +101,7 @@ def read_record(
     --------
     >>> th.read_record("data/records/el_centro_1940_NS.AT2").duration
     31.16
-    >>> columns, rows = "time (s),acceleration (g)", [[0.0, 0.1], [0.02, -0.2], [0.04, 0.1]]
+    >>> columns, rows = "time (s),acceleration (g)", [[0.0, 0.0], [0.1, 0.2], [0.2, -0.2], [0.3, 0]]
     >>> np.savetxt("motion.csv", rows, delimiter=",", header=columns, comments="")
     >>> th.read_record("motion.csv").peak_acceleration
     0.2

@@ -166,7 +166,7 @@ class Record(Excitation):
 
         Examples
         --------
-        >>> shifted = th.Record(0.01, 0.02 + np.sin(0.1 * np.arange(1000)))
+        >>> shifted = th.Record(0.01, 5e-4 + np.sin(0.1 * np.pi * np.arange(1001)))
         >>> bool(abs(shifted.detrended().acceleration.mean()) < 1e-12)
         True
         """

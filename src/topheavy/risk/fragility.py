@@ -62,7 +62,8 @@ class Fragility:
 
     Examples
     --------
-    >>> motions = [th.Record(0.02, np.sin(k * np.arange(200))) for k in (0.02, 0.03, 0.05, 0.08)]
+    >>> phases = 0.01 * np.pi * np.arange(201)
+    >>> motions = [th.Record(0.02, 0.1 * np.sin(n * phases)) for n in (1, 2, 4, 8)]
     >>> result = th.fragility([th.Column(0.5, 3.0)], motions, [0.5, 1.0, 2.0], resamples=100)
     >>> result.curves.probability.values
     array([[0.  , 0.25, 0.5 ]])
