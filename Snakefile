@@ -17,7 +17,11 @@ from pathlib import Path
 from snakemake.utils import min_version
 
 library = find_spec("topheavy")
-if not library or not Path(library.origin).resolve().is_relative_to(Path.cwd()):
+BASE = Path(workflow.basedir).resolve()
+if library and Path(library.origin).resolve().is_relative_to(BASE):
+    if Path.cwd() != BASE:
+        sys.exit(f"this folder is {Path.cwd()}; all paths are of {BASE}: run there")
+else:
     sys.exit(
         f"the environment {sys.prefix} is not of this folder (its library is "
         f"{library.origin if library else 'missing'}): a copied .venv still belongs to the folder "
@@ -159,9 +163,13 @@ def strays():
                 yield path
 
 
-PAPER = read_config(
-    " over ".join(map(os.path.relpath, workflow.configfiles)), Paper, config
-)
+CONFIGS = [*map(os.path.relpath, workflow.configfiles)]
+if any(text.startswith("--config=") or text in ("--config", "-C") for text in sys.argv):
+    CONFIGS.insert(
+        0,
+        "--config, which makes texts of numbers in brackets or braces (use --configfile),",
+    )
+PAPER = read_config(" over ".join(CONFIGS), Paper, config)
 
 
 include: "rules/paper.smk"
