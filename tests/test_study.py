@@ -71,11 +71,11 @@ def test_an_old_result_answers_neither_for_another_record_nor_after_an_error(bri
     config.write_text(text.replace("scale: 1.3", "scale: 1.4"), "utf-8")
     os.utime(config, (0, 0))
     assert "triggered jobs" in snakemake(copy, "--dry-run")[1]
-    config.write_text(text.replace("width:", "widht:"), "utf-8")
+    config.write_text(text.replace("width:", "wide:"), "utf-8")
     for _ in range(2):  # the second time, the picture is gone and the old report is there
         code, output = snakemake(copy)
         assert code == 1
-        assert "unexpected keyword argument 'widht'" in output
+        assert "unexpected keyword argument 'wide'" in output
     config.write_text(text, "utf-8")
     (copy / "el_centro_1940_NS.AT2").rename(copy / "another.AT2")
     code, output = snakemake(copy)
