@@ -11,7 +11,7 @@ export PYTHONDONTWRITEBYTECODE :=
 export NAME DIR
 
 .DEFAULT_GOAL := help
-.PHONY: help reproduce unlock check audit test lint study publish notebooks faults archive cluster-test clean
+.PHONY: help reproduce unlock check audit refute test lint study publish notebooks faults archive cluster-test clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' Makefile | \
@@ -35,6 +35,10 @@ check: | $(UV) ## without a run: checksums, parameters, verdicts and pages of wh
 
 audit: | $(UV) ## without a run: recompute what README says by one file, from the equations
 	@$(RUN) python -I src/audit.py
+
+refute: | $(UV) ## which sentence does a motion contradict? MOTION=file or lobes; or search: SENTENCE=id MINUTES=10
+	@$(RUN) python src/refute.py $(if $(MOTION),--motion "$(MOTION)") $(if $(SENTENCE),--sentence "$(SENTENCE)") \
+	  $(if $(MINUTES),--minutes "$(MINUTES)") $(if $(SEED),--seed "$(SEED)") $(if $(DRAWS),--draws "$(DRAWS)") $(if $(ADD),--add "$(ADD)")
 
 test: | $(UV) ## run the tests
 	@OMP_NUM_THREADS=1 $(DEV) pytest --numprocesses "$(CORES)" --dist worksteal

@@ -145,6 +145,28 @@ rule contacts:
         "../src/steps/beyond/contacts.py"
 
 
+rule worst_found:
+    input:
+        kernel="results/kernel.compiled",
+        cases="data/worst_found.yaml",
+        sentences="paper/sentences.yaml",
+    output:
+        worst=shown("results/tables/worst_found.csv"),
+        motions="results/tables/worst_found_motions.csv",
+        findings="results/findings/worst_found.json",
+    log:
+        "results/logs/worst_found.log",
+    params:
+        code=code("src/steps/beyond/worst_found.py"),
+        spec=PAPER["spectra"]["cycles"],
+        contacts=PAPER["contacts"],
+        column=PAPER["structures"]["temple"],
+    message:
+        "The worst motions found against each sentence"
+    script:
+        "../src/steps/beyond/worst_found.py"
+
+
 rule designers:
     input:
         "results/tables/motions_gains.csv",

@@ -235,6 +235,7 @@ localrules:
     claims,
     colonnades,
     comparison,
+    contacts,
     designers,
     engine,
     equations,
@@ -263,3 +264,4 @@ localrules:
     uplift,
     vase,
     verification,
+    worst_found,

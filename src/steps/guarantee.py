@@ -21,7 +21,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from replication.step import check, run, truth
+from replication.step import check, run, truth, value
 from steps.shared.cases import column_of
 from topheavy import (
     STANDARD_GRAVITY,
@@ -273,6 +273,7 @@ def findings(
     names = [*(f"velocity_{n}" for n in FIRST), "velocity"]
     frames = guarantee[guarantee.support == "frame"].groupby("structure")
     fixed = guarantee[guarantee.support == "fixed mass"]
+    of_structure = frames.get_group(settings["structure"]).sort_values("mass_ratio")
     courses = [
         part.set_index("time").rotation_over_alpha
         for _, part in guarantee_order.groupby("mass_ratio")
@@ -288,6 +289,8 @@ def findings(
         "heavier_may_move_faster": truth(
             all(rises(part.sort_values("mass_ratio")[n]) for _, part in frames for n in names)
         ),
+        "first_velocity_of_the_column": value(of_structure.velocity_1.iloc[0], 0.0, "m/s"),
+        "first_velocity_of_the_heaviest": value(of_structure.velocity_1.iloc[-1], 0.0, "m/s"),
         "fixed_mass_may_not": truth((fixed.gain < 0.0).all(), lowest_loss=-fixed.gain.max()),
         "heavier_rotates_less": truth(
             all(len(apart) > 0 and (apart >= 0.0).all() for apart in ahead),

@@ -1,0 +1,89 @@
+"""Sentences as data, motions that contradict them or not, and the worst cases."""
+
+import math
+
+import pandas as pd
+import pytest
+import yaml
+
+import refute
+from steps.beyond import worst_found
+from steps.shared import sentences
+from tests.cases import COLUMN, CONFIG
+from topheavy import Record
+
+CYCLES = "; ".join(f"{sign}0.456 0.3" for sign in "+-" * 3)
+SPEC = CONFIG["spectra"]["cycles"] | {"draws": 2}
+
+
+def test_a_sentence_compares_the_pairs_that_it_speaks_of():
+    known = sentences.read_sentences()
+    gammas = [0.0, 1.0, math.inf]
+    assert known["frame_over_column"].pairs(gammas) == [(0.0, 1.0), (0.0, math.inf)]
+    assert known["heavier_over_lighter"].pairs(gammas) == [(1.0, math.inf)]
+    assert {case["sentence"] for case in worst_found.read_cases(refute.CASES)} == {*known}
+
+
+def test_lobes_in_words_are_signed_and_may_have_a_pause():
+    first, second = refute.lobes_in_words("+0.9 0.3; -0.8 0.2 0.1")
+    assert first == (1.0, 0.9, 0.3, 0.0)
+    assert second == (-1.0, 0.8, 0.2, 0.1)
+    with pytest.raises(ValueError, match=r"lobe 2 is '0.9'; expected its length in s"):
+        refute.lobes_in_words("+0.9 0.3; 0.9")
+
+
+def test_half_the_range_of_the_velocity_is_that_of_its_integral():
+    assert sentences.half_range(Record(0.1, [0.0, 1.0, -1.0, 0.0])) == pytest.approx(
+        0.5 * 0.981 * 0.5
+    )
+
+
+def test_a_case_keeps_its_fall_and_another_value_stops_the_step():
+    case, height = worst_found.read_cases(refute.CASES)[0], COLUMN.half_height
+    row = worst_found.row_of_case(case, height, SPEC, CONFIG["contacts"])
+    assert row["strict"] == pytest.approx(case["fall"], abs=1e-4)
+    assert row["heavier_from"] < row["lighter_from"]
+    assert row["heavier_width"] >= SPEC["wide"]
+    assert row["least_vertical"] > 0.0
+    with pytest.raises(SystemExit, match=r"has a fall of 0\.\d+; expected 0.9"):
+        worst_found.row_of_case(case | {"fall": 0.9}, height, SPEC, CONFIG["contacts"])
+
+
+def test_a_motion_contradicts_a_sentence_or_none(monkeypatch):
+    monkeypatch.setitem(CONFIG["motions"], "structures", ["temple"])
+    lines = "\n".join(refute.answer("+1.5 0.3; -1.5 0.3", CONFIG))
+    assert lines.count("not contradicted, up to a peak of 4.5 g tan α") == 2
+    case = worst_found.read_cases(refute.CASES)[0]
+    column, lobes = worst_found.column_and_lobes(case, 3.0)
+    narrow = {"half_width": column.half_width, "half_height": column.half_height}
+    monkeypatch.setitem(CONFIG["structures"], "temple", narrow)
+    words = "; ".join(f"{one.sign * one.length:+} {one.amplitude} {one.pause}" for one in lobes)
+    lines = "\n".join(refute.answer(words, CONFIG))
+    assert "contradicted by" in lines
+    assert "an example" in lines
+
+
+def test_only_a_worse_case_is_added(tmp_path, monkeypatch):
+    cases = worst_found.read_cases(refute.CASES)
+    path, case = tmp_path / "found.yaml", tmp_path / "case.yaml"
+    path.write_text(f"# head\n{refute.in_yaml(cases)}")
+    monkeypatch.setattr(refute, "CASES", str(path))
+    monkeypatch.setattr(refute, "row_of_case", lambda *_: None)
+    case.write_text(refute.in_yaml(cases[0]))
+    assert "not added" in refute.add(str(case), CONFIG)
+    case.write_text(refute.in_yaml(cases[0] | {"fall": 0.5}))
+    assert "has it" in refute.add(str(case), CONFIG)
+    assert path.read_text().startswith("# head\n")
+    assert yaml.safe_load(path.read_text())[0]["fall"] == 0.5
+
+
+def test_a_quoted_case_is_the_worst_that_most_draws_keep():
+    row = {"sentence": "frame_over_column", "strict": 0.05, "stays": 0.5, "least_vertical": 0.6}
+    row |= {"friction": 0.3, "lighter": 0.0, "heavier": 0.25}
+    rows = [row, row | {"strict": 0.03, "stays": 0.9}]
+    found = worst_found.findings(pd.DataFrame(rows), CONFIG["contacts"])
+    assert found["worst_frame_over_column"]["strict"] == 0.05
+    assert found["robust_frame_over_column"]["strict"] == 0.03
+    assert found["worst_heavier_over_lighter"] == {"holds": True}
+    open_contact = pd.DataFrame([row | {"least_vertical": -0.1}])
+    assert not worst_found.findings(open_contact, CONFIG["contacts"])["contacts_are_kept"]["holds"]
