@@ -161,7 +161,7 @@ def search(
     known = [case for case in read_cases(CASES) if case["sentence"] == sentence]
     if not known:
         raise ValueError(f"{CASES} has no case of '{sentence}' to begin with")
-    start = max(known, key=lambda case: case["fall"])
+    start = max(known, key=lambda case: ((case["draws"] > 0) == (draws > 0), case["fall"]))
     best, most, evaluations = start, -1.0, 0
     pair, random = (start["lighter"], start["heavier"]), np.random.default_rng(seed)
     noise = SPREAD * random.standard_normal((draws, len(start["lobes"]), 2))
