@@ -135,7 +135,7 @@ def test_a_case_beside_a_figure_is_that_of_the_figure(pages):
     ends = [outcomes({key: number(text) for key, text in state.items()}, {}) for state in states]
     assert [(column, frame) for column, _, frame in ends] == [
         ("overturns", "survives"),  # the second pulse of Figure 1
-        ("survives", "overturns"),  # pulse 1 of Figure 8
+        ("survives", "overturns"),  # pulse 1 of Figure 7
     ]
 
 
