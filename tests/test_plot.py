@@ -12,7 +12,7 @@ import pytest
 import topheavy
 from figures import palette
 from tests.cases import COLUMN, FRAME, ROOT
-from topheavy import Cap, FixedMassColumn, MonolithicPortal, Pulse, Record, plot
+from topheavy import Cap, FixedMassColumn, MonolithicPortal, Pulse, Record, RockingFrame, plot
 
 
 @pytest.fixture(autouse=True)
@@ -138,6 +138,7 @@ def test_capacity_is_where_enough_of_the_factors_overturn():
         (COLUMN, 1),
         (FixedMassColumn(COLUMN, 1.0), 2),
         (FRAME, 3),
+        (RockingFrame(COLUMN, 1.0, columns=4), 5),
         (MonolithicPortal(COLUMN, 1, 8), 3),
     ],
 )
@@ -150,6 +151,15 @@ def test_structure_stands_on_the_ground_and_leans_as_it_rocks(shown, bodies, rot
     high = corners[:, 1] > COLUMN.half_height
     lean = corners[high, 0].mean() - corners[~high, 0].mean()
     assert np.sign(lean.round(9)) == np.sign(rotation)
+
+
+def test_columns_of_a_frame_stand_in_equal_steps_from_end_to_end_of_the_cap_beam():
+    *columns, cap = plot.structure(RockingFrame(COLUMN, 1.0, columns=4)).patches
+    left = [patch.get_xy()[:, 0].min() for patch in columns]
+    steps = np.sort(np.diff(np.sort(left)))
+    assert steps[0] == pytest.approx(steps[-1])
+    assert min(left) == pytest.approx(cap.get_xy()[:, 0].min())
+    assert max(left) + 2.0 * COLUMN.half_width == pytest.approx(cap.get_xy()[:, 0].max())
 
 
 def test_without_matplotlib_the_extra_is_named():

@@ -6,7 +6,7 @@ Each function draws into `axes`, or into a new figure, and returns the Axes.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
@@ -88,7 +88,7 @@ def map(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
     axes.set_facecolor(OVERTURNED)
     shown = axes.pcolormesh(across, up, peaks, shading="nearest", cmap="Blues", vmin=0.0, vmax=1.0)
     axes.figure.colorbar(
-        shown, ax=axes, label=r"Peak rotation, $\max|\theta|/\alpha$ (–); grey: overturns"
+        shown, ax=axes, label="Peak rotation, $\\max|\\theta|/\\alpha$ (–)\ngrey: overturns"
     )
     axes.set_title(
         outcomes.attrs.get("shape", "") or outcomes.attrs.get("record", ""), fontsize="medium"
@@ -127,7 +127,7 @@ def rotations(peaks: xarray.DataArray, *, axes: Axes | None = None) -> Axes:
     peaks = peaks.sortby("factor")
     for place, name in enumerate(np.atleast_1d(peaks.structure)):
         one = peaks.sel(structure=name) if peaks.structure.ndim else peaks
-        (line,) = axes.plot(one / one.slenderness, one.peak_acceleration, ".-", label=str(name))
+        (line,) = axes.plot(one / one.slenderness, one.peak_acceleration, ".", label=str(name))
         overturned = one.peak_acceleration[np.isnan(one)]
         beside = np.full(overturned.size, 1.02 + 0.03 * place)
         axes.plot(
@@ -161,7 +161,7 @@ def capacity(result: Capacity, *, label: str = "", axes: Axes | None = None) -> 
         axes.axvspan(low, last, color=line.get_color(), alpha=0.15, linewidth=0.0)
     axes.set(
         xlabel="Factor on the record (–)",
-        ylabel=f"Share that overturns within {100.0 * WINDOW:g} % (–)",
+        ylabel=f"Share that overturns\nwithin {100.0 * WINDOW:g} % (–)",
         ylim=(-0.02, 1.02),
     )
     axes.legend()
@@ -177,7 +177,9 @@ def fragility(result: Fragility, *, axes: Axes | None = None) -> Axes:
         (points,) = axes.plot(curve.level, curve.probability, ".", label=str(name))
         colour = points.get_color()
         ends = curve.probability_low, curve.probability_high
-        axes.fill_between(curve.level, *ends, color=colour, alpha=0.15, linewidth=0.0)
+        # Bands may overlap, and their edges still show where each is.
+        shades: dict[str, Any] = {"facecolor": (colour, 0.1), "edgecolor": (colour, 0.6)}
+        axes.fill_between(curve.level, *ends, linewidth=0.6, **shades)
         axes.plot(curve.level, curve.fitted, color=colour)
     unit = result.curves.level.attrs.get("units", "its unit")
     limit = result.rotation_limit
@@ -207,8 +209,8 @@ def structure(
     rotation : float
         θ, rad.
     cap_width, cap_depth : float, optional
-        Dimensions of the cap beam, m. By default those of the structure, and if it has none: twice
-        the height of a column wide, or three times the width of a single column; 0.15 of the
+        Dimensions of the cap beam, m. By default those of the structure, and if it has none: the
+        height of a column wide for each, or three times the width of a single column; 0.15 of the
         height of a column deep.
 
     Raises
@@ -224,9 +226,10 @@ def structure(
     width = depth = 0.0
     if isinstance(shown, FixedMassColumn | MonolithicPortal | RockingFrame):
         column = shown.column
-        only = isinstance(shown, FixedMassColumn)
-        usual = 6.0 * column.half_width if only else 4.0 * column.half_height
-        if isinstance(shown, MonolithicPortal):
+        usual = 6.0 * column.half_width
+        if isinstance(shown, RockingFrame):
+            usual = 2.0 * shown.columns * column.half_height
+        elif isinstance(shown, MonolithicPortal):
             usual = shown.span + 2.0 * (column.half_width + shown.overhang)
         width = cap_width or getattr(shown, "cap_width", 0.0) or usual
         depth = cap_depth or getattr(shown, "cap_depth", 0.0) or 0.3 * column.half_height

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
-from topheavy.bodies.structures import Column, RockingFrame, Structure, checked_two_columns
+from topheavy.bodies.structures import Column, RockingFrame, Structure
 from topheavy.checks import short_repr
 
 Array = NDArray[np.float64]
@@ -67,7 +67,8 @@ def outlines(
     structure : Column, FixedMassColumn, RockingFrame or MonolithicPortal
     cap_width, cap_depth : float
         Of the cap as it is drawn, m: its mass does not follow from them. The outer faces of a
-        frame's columns are under its ends; a portal has its own span.
+        frame's columns are under its ends, other columns in equal steps between; a portal has its
+        own span.
 
     Returns
     -------
@@ -81,8 +82,6 @@ def outlines(
             f"structure is {short_repr(structure)}; expected a Column, FixedMassColumn, "
             "RockingFrame or MonolithicPortal, which have dimensions"
         )
-    if isinstance(structure, RockingFrame):
-        checked_two_columns(structure)
     column, top = structure.column, 2.0 * structure.column.half_height
     beam = _rectangle(cap_width, top, cap_depth)
     if isinstance(structure, FixedMassColumn):
@@ -94,13 +93,12 @@ def outlines(
         upright, axis = column_outline(column, 0.0), np.array([structure.span / 2.0, 0.0])
         parts = {"left column": upright - axis, "right column": upright + axis, "cap": beam}
         return {name: _turned(structure.half_base, rotation, part) for name, part in parts.items()}
-    axis = np.array([cap_width / 2.0 - column.half_width, 0.0])
-    outline = column_outline(column, rotation)
-    return {
-        "left column": outline - axis,
-        "right column": outline + axis,
-        "cap": beam + np.array(cap_displacement(column, rotation)),
-    }
+    end, outline = cap_width / 2.0 - column.half_width, column_outline(column, rotation)
+    inner = [f"column {number}" for number in range(2, structure.columns)]
+    names = ["left column", *inner, "right column"]
+    axes = np.linspace(-end, end, structure.columns)
+    columns = {name: outline + [axis, 0.0] for name, axis in zip(names, axes, strict=True)}
+    return columns | {"cap": beam + np.array(cap_displacement(column, rotation))}
 
 
 def _turned(half_base: float, rotation: float, corners: Array) -> Array:

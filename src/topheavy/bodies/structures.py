@@ -250,7 +250,7 @@ def as_block(structure: Structure) -> RockingBlock:
     if isinstance(structure, type) or not callable(getattr(structure, "block", None)):
         raise ValueError(
             f"structure is {short_repr(structure)}; expected a Column, a RockingFrame or another "
-            "structure with a method block()"
+            "structure with a method block(), one at a time"
         )
     return structure.block()
 
@@ -293,17 +293,10 @@ def checked_column(value: object) -> None:
 def checked_mass_ratio(value: float) -> float:
     """Return γ as a float, or raise ValueError unless it is a number from 0 to infinity."""
     if not (ratio := checks.number("mass_ratio", value)) >= 0.0:
-        raise ValueError(f"mass_ratio is {ratio:.6g}; expected γ = m_b / 2 m_c from 0 to infinity")
-    return ratio
-
-
-def checked_two_columns(frame: RockingFrame) -> None:
-    """Raise ValueError for a frame of more than two columns, whose spans and forces are unknown."""
-    if frame.columns != 2:
         raise ValueError(
-            f"frame has {frame.columns} columns; expected two, for which contacts and forces are "
-            "known: RockingFrame(column, mass_ratio) with the same γ has two"
+            f"mass_ratio is {ratio:.6g}; expected γ = m_b / (N m_c) from 0 to infinity"
         )
+    return ratio
 
 
 def size_ratio(mass_ratio: float) -> float:

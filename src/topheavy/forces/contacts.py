@@ -33,7 +33,6 @@ from topheavy.bodies.structures import (
     STANDARD_GRAVITY,
     Column,
     RockingFrame,
-    checked_two_columns,
     weights,
 )
 from topheavy.checks import short_repr
@@ -250,7 +249,13 @@ def checked_frame(frame: object, cap: object) -> None:
             f"cap is {short_repr(cap)}; expected its dimensions, for example "
             "Cap(span=5.0, half_depth=0.4) in m"
         )
-    checked_two_columns(frame)
+    if frame.columns != 2:
+        raise ValueError(
+            f"frame has {frame.columns} columns; expected two: between more, equilibrium does "
+            "not divide the load of a rigid cap beam. Assume a share for each. If they are equal, "
+            "each column carries, but for the moment of the beam, what one of two does: "
+            "RockingFrame(column, mass_ratio) with the same γ"
+        )
     checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
 
 
