@@ -14,6 +14,7 @@ from typing import Any
 
 import numba
 from numba import types
+from numba.core import event
 
 from topheavy.bodies import free_rocking
 from topheavy.ground import pulses, shapes
@@ -37,18 +38,12 @@ SHARED_SOURCES = [Path(str(module.__file__)) for module in (shapes, pulses, free
 def writable_folder() -> Path | None:
     """Return the folder of this state of the kernel, or None with a warning if there can be none.
 
-    The logger "topheavy" says that the first call compiles, when the folder is empty. numba would
-    look for another one, such as `__pycache__`, which no other state of the kernel has.
+    numba would look for another one, such as `__pycache__`, which other states share.
     """
     try:
         folder = cache_folder() / state(Path(__file__).parent, *SHARED_SOURCES)[:16]
         folder.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
-        if not any(folder.iterdir()):
-            logging.getLogger("topheavy").warning(
-                "The first call compiles the solver for about half a minute; it is kept in %s",
-                folder,
-            )
     except (OSError, RuntimeError) as error:  # RuntimeError: the user has no home
         warnings.warn(
             f"the compiled solver cannot be kept ({error}), so that each process compiles it "
@@ -60,6 +55,28 @@ def writable_folder() -> Path | None:
 
 
 FOLDER = writable_folder()
+
+
+class Notice(event.Listener):
+    """Says by the logger "topheavy", once in a process, that a part of the solver is compiled."""
+
+    is_given = False
+
+    def on_start(self, event: event.Event) -> None:
+        module = event.data["dispatcher"].py_func.__module__
+        if self.is_given or not module.startswith("topheavy."):
+            return
+        self.is_given = True
+        logging.getLogger("topheavy").warning(
+            "This call compiles its part of the solver, for up to half a minute%s",
+            f"; it is kept in {FOLDER}" if FOLDER else "",
+        )
+
+    def on_end(self, event: event.Event) -> None:
+        pass
+
+
+event.register("numba:compile", Notice())
 
 
 def compiled(function: Any = None, **options: Any) -> Any:
