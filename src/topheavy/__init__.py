@@ -18,6 +18,12 @@ Angles are in rad, rotations signed, accelerations in g, everything else in SI u
 
 In the examples `th` is this package and `np` is NumPy.
 
+In parallel: threads share the histories of one call, on all cores that the process may use. In
+workers, set OMP_NUM_THREADS=1 before they start, or each takes all cores (joblib does so itself).
+Fork after a first call, which loads or compiles the solver for all. A spawned worker takes seconds
+to load it again, and more with PYTHONDONTWRITEBYTECODE=1. Results have the same bits in any number
+of threads and processes.
+
 It does not model
 
 - sliding: compare the friction that `contact_forces` requires with what there is; beyond it take a

@@ -134,7 +134,11 @@ class Capacity:
 
     @property
     def range(self) -> tuple[float, float]:
-        """The least and the greatest factor over windows of 2.5 to 20 %; NaN if one has none."""
+        """The least and the greatest factor over windows of 2.5 to 20 %; NaN if one has none.
+
+        It shows how far the definition of a capacity matters here. It is no interval of confidence:
+        another record or a slightly different √r can have a capacity far outside.
+        """
         factors = [self.over(window) for window in WINDOWS]
         return float(np.fmin.reduce(factors)), float(np.max(factors))
 
