@@ -59,11 +59,12 @@ study: | $(UV) ## copy studies/bent, as a repository of its own: make study DIR=
 	@expr "$$NAME" : '[a-z][a-z0-9_]*$$' >/dev/null && case "$$NAME" in results|dist|wheels|tests|topheavy) false;; esac || \
 	  { echo "NAME is '$$NAME'; expected lower case, digits, _, and none of results, dist, wheels, tests, topheavy"; exit 1; }
 	@test -n "$$DIR" && test ! -e "$$DIR" || { echo "DIR is '$$DIR'; expected the path of a new folder"; exit 1; }
-	@mkdir "$$DIR" && cp LICENSE .gitignore data/records/el_centro_1940_NS.AT2 "$$DIR"
+	@mkdir "$$DIR" && cp LICENSE .gitignore "$$DIR" && cp -R data/records "$$DIR"
 	@tar -C studies/bent --exclude results --exclude '.snakemake' --exclude '.venv' --exclude '*cache*' -c . | tar -C "$$DIR" -x
 	@$(UV) build --quiet --wheel --no-create-gitignore --out-dir "$$DIR/wheels"
 	@cd "$$DIR" && sed -i.old 's|"bent"|"'"$$NAME"'"|; s|path = "../.."|path = "$(WHEEL)"|' pyproject.toml && \
-	  sed -i.old 's|../../data/records/||' config.yaml && sed -i.old 's|bent$$|'"$$NAME"'|' README.md CITATION.cff && rm *.old
+	  sed -i.old 's|../../data/||' config.yaml && sed -i.old 's|bent|'"$$NAME"'|g' README.md CITATION.cff report.typ && \
+	  rm *.old && mv tests/test_bent.py "tests/test_$$NAME.py"
 	@$(UV) lock --quiet --project "$$DIR"
 	@ls -A "$$DIR" && printf "Next: cd '%s' && '%s' run snakemake --cores 2\n" "$$DIR" "$(abspath $(UV))"
 WHEEL = wheels/topheavy-$(shell sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml)-py3-none-any.whl

@@ -1,6 +1,7 @@
 """`make study` copies studies/bent, and the copy runs, here in the environment of the tests."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -25,7 +26,7 @@ TESTS = """
 import pathlib, pytest
 assert pytest.main([]) == 0
 path = pathlib.Path("results/numbers.json")
-path.write_text(path.read_text().replace('"bent": [3.', '"bent": [2.'))
+path.write_text(path.read_text().replace('"frame": [3.', '"frame": [2.'))
 assert pytest.main([]) == 1
 """
 
@@ -75,22 +76,31 @@ def test_an_old_result_answers_neither_for_another_record_nor_after_an_error(bri
     for _ in range(2):  # the second time, the picture is gone and the old report is there
         code, output = snakemake(copy)
         assert code == 1
-        assert "unexpected keyword argument 'wide'" in output
-    config.write_text(text, "utf-8")
-    (copy / "el_centro_1940_NS.AT2").rename(copy / "another.AT2")
+        assert re.search(
+            "^config.yaml: column: .*unexpected keyword argument 'wide'$", output, re.M
+        )
+    config.write_text(text.replace("levels:", "level:"), "utf-8")
     code, output = snakemake(copy)
     assert code == 1
-    assert "reads el_centro_1940_NS.AT2, which is not there: put it there, or mend" in output
+    assert re.search("^config.yaml: .*'level.*missing or unknown; expected", output, re.M)
+    config.write_text(text, "utf-8")
+    (copy / "records/el_centro_1940_NS.AT2").rename(copy / "another.AT2")
+    code, output = snakemake(copy)
+    assert code == 1
+    assert "records/el_centro_1940_NS.AT2 is not there: put it there, or mend config" in output
 
 
 def test_the_tests_of_the_copy_pass_and_a_wrong_number_fails_one(bridge):
     assert (bridge / "results/report.pdf").is_file()
-    assert 'name = "bridge"' in (bridge / "pyproject.toml").read_text("utf-8")
-    assert "../.." not in (bridge / "pyproject.toml").read_text("utf-8")
+    for name in ("pyproject.toml", "README.md", "CITATION.cff", "report.typ"):
+        text = (bridge / name).read_text("utf-8")
+        assert "bridge" in text
+        assert "bent" not in text
+        assert "../.." not in text
     code, output = run(bridge, "python", "-c", TESTS)
     assert code == 0, output
     assert output.count("FAILED") == 1
-    assert "FAILED tests/test_bent.py::test_the_text_quotes_the_numbers_of_the_table" in output
+    assert "FAILED tests/test_bridge.py::test_the_text_quotes_the_numbers_of_the_config" in output
 
 
 @pytest.mark.parametrize(
