@@ -434,7 +434,9 @@ WORDS = {  # of README: each is there if what this file computes says so, and on
 }
 NOT_RECOMPUTED = {  # of README and abstract, and the rules that compute them
     "alone is # % lower than theory says, as measured on concrete, # of # percentage": "break_even",
-    "WORST": "worst_found",
+    "at # % less acceleration than its column": "worst_found",
+    "beam at # % less than one with a lighter beam": "worst_found",
+    "With pulses changed by # %, # and # of # still do": "worst_found, from its draws",
     "shares of motions that overturn, read for the gains": "motions",
     "two square columns in line; light beams and friction": "engine, friction",
 }

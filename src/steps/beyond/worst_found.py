@@ -27,7 +27,6 @@ from topheavy import Column, Record
 
 PLACES = 4  # decimals of a fall in data/worst_found.yaml
 ASIDE = 2.0 * GRID  # g tan α, of an end of an interval: there the plain solver repeats outcomes
-KEPT = 0.75  # share of draws in which a fall that the documents quote has to remain one
 
 
 def read_cases(path: str) -> list[dict[str, Any]]:
@@ -121,23 +120,17 @@ def compute(
 
 
 def findings(worst_found: pd.DataFrame, contacts: Mapping[str, Any]) -> dict[str, Any]:
-    """Return for each sentence its worst case, and the worst that most draws keep."""
+    """Return for each sentence its worst case, and the one that remains in most draws."""
     has_contacts = (worst_found.least_vertical > 0.0) & (
         worst_found.friction <= contacts["sufficient"]
     )
     found = {"contacts_are_kept": truth(has_contacts.all(), cases=len(worst_found))}
     for name in read_sentences():
         rows = worst_found[worst_found.sentence == name]
-        kept = rows[rows.stays >= KEPT]
-        for label, part in (("worst", rows), ("robust", kept)):
-            evidence = {}
-            if len(part):
-                row = part.loc[part.strict.idxmax()]
-                evidence = {
-                    key: f"{row[key]:g}" if key in ("lighter", "heavier") else row[key]
-                    for key in worst_found.columns
-                }
-            found[f"{label}_{name}"] = truth(part.empty, **evidence)
+        for label, column in (("worst", "strict"), ("steadiest", "stays")):
+            evidence = rows.nlargest(1, column).to_dict("records")[0] if len(rows) else {}
+            evidence |= {key: f"{evidence[key]:g}" for key in ("lighter", "heavier") if evidence}
+            found[f"{label}_{name}"] = truth(rows.empty, **evidence)
     return found
 
 
