@@ -83,6 +83,10 @@ def test_an_old_result_answers_neither_for_another_record_nor_after_an_error(bri
     code, output = snakemake(copy)
     assert code == 1
     assert re.search("^config.yaml: .*'level.*missing or unknown; expected", output, re.M)
+    config.write_text(text.replace("path:", "pth:"), "utf-8")
+    code, output = snakemake(copy)
+    assert code == 1
+    assert "El Centro 1940 (NS): path is not there: put it there, or mend config.yaml" in output
     config.write_text(text, "utf-8")
     (copy / "records/el_centro_1940_NS.AT2").rename(copy / "another.AT2")
     code, output = snakemake(copy)

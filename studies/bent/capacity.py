@@ -33,8 +33,8 @@ def structures(config, share):
 
 def capacities(config):
     """Return the capacity of each structure, by record and share of √r."""
-    results = {}
-    for (name, section), share in product(config["records"].items(), config["restitution"]):
+    results, shares = {}, made("restitution", {}, list, config["restitution"])
+    for (name, section), share in product(config["records"].items(), shares):
         record, pair = made(f"records: {name}", section, th.read_record), structures(config, share)
         results[name, share] = {key: th.capacity(block, record) for key, block in pair.items()}
     return results
@@ -73,7 +73,7 @@ if __name__ == "__main__":
     config = yaml.safe_load(Path("config.yaml").read_text())
     results, curves = capacities(config), fragilities(config)
     Path("results/numbers.json").write_text(json.dumps(numbers(results, curves, config["scale"])))
-    figure, (top, low) = plt.subplots(2, figsize=(6.3, 5.4), layout="constrained")
+    figure, (top, low) = plt.subplots(2, figsize=(6.3, 4.5), layout="constrained")
     (case, pair), *_ = results.items()
     for key, result in pair.items():
         th.plot.capacity(result, label=f"{key}, {case[0]}, {case[1]} √r", axes=top)
