@@ -129,7 +129,7 @@ def test_lists_are_parts_of_the_one_list():
 
 def test_number_that_could_be_a_period_or_a_frequency_is_refused():
     with pytest.raises(TypeError, match=r"period=1.5 for s, or angular_frequency=1.5 for rad/s"):
-        Pulse("one-cosine", 0.29, angular_frequency=1.5)
+        Pulse("one-cosine", 0.29, 1.5)
 
 
 SAMPLES = (0.1, -0.2, 0.4, 0.0, -0.3)
