@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from steps.beyond import break_even, motions, records
-from steps.shared import filtered_noise, harmonic, plain, sweep
+from steps.shared import filtered_noise, harmonic, samples, sweep
 from steps.shared.filtered_noise import Soil
 from tests.cases import COLUMN, CONFIG, broken
 from topheavy import Capacity, Column, Record, RockingFrame, judge
@@ -241,7 +241,7 @@ def test_harmonic_motions_end_anywhere_and_are_compared_by_pairs():
     fell = harmonic.outcomes(settings, gammas, COLUMN)
     level = settings["amplitudes"][0]
     assert fell[3, 1, 0] == judge(RockingFrame(COLUMN, 1.0), record.scaled(level)).overturned
-    plain.check_sample(harmonic.sampled(settings, gammas, fell, COLUMN))
+    samples.check_sample(harmonic.sampled(settings, gammas, fell, COLUMN))
     row, *_ = harmonic.pairs(settings, gammas, fell, SETTINGS["bootstrap"])
     column, frame = fell[:, :, 0].mean(axis=0)
     assert row["difference"] == pytest.approx(frame - column)
@@ -362,7 +362,7 @@ def test_outcome_that_a_tighter_tolerance_changes_is_not_known(monkeypatch):
 
 def test_outcomes_that_a_nudge_changes_are_not_known():
     record = Record(0.01, np.sin(np.arange(200) / 20.0))
-    edge = plain.beside_a_boundary(lambda f: judge(COLUMN, record.scaled(f)).overturned, 0.3)
+    edge = samples.beside_a_boundary(lambda f: judge(COLUMN, record.scaled(f)).overturned, 0.3)
     low, high = edge * 0.999, edge * 1.002
     for _ in range(60):
         middle = 0.5 * (low + high)
@@ -374,6 +374,6 @@ def test_outcomes_that_a_nudge_changes_are_not_known():
 
 def test_a_solver_that_differs_stops_the_step(monkeypatch):
     cells = [(COLUMN.block(), Record(0.01, np.sin(np.arange(200) / 20.0)), None, 0.1, False)]
-    plain.check_sample(cells)
+    samples.check_sample(cells)
     with pytest.raises(SystemExit, match="the plain solver has 1 of 1 outcomes otherwise"):
-        plain.check_sample([(*cells[0][:-1], True)])
+        samples.check_sample([(*cells[0][:-1], True)])

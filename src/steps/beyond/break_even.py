@@ -13,7 +13,7 @@ import pandas as pd
 from scipy.optimize import isotonic_regression
 
 from replication.step import check, run, truth, value
-from steps.shared.plain import beside_a_boundary, check_sample, overturns
+from steps.shared.samples import beside_a_boundary, check_sample, overturns
 from steps.shared.sweep import (
     FAMILIES,
     models,

@@ -12,7 +12,7 @@ import numpy as np
 
 from replication.step import check, geometric, run, truth
 from steps.shared.cases import column_of
-from steps.shared.plain import NUDGE, check_sample
+from steps.shared.samples import NUDGE, check_sample
 from topheavy import Column, RockingFrame, capacity, overturned_by, read_record
 
 BESIDE = 3  # factors on either side of a change of the outcome

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from steps.shared.plain import Cell
+from steps.shared.samples import Cell
 from topheavy import Column, Record, RockingFrame, overturned_by
 from topheavy.risk.resampling import Ensemble
 
