@@ -12,7 +12,7 @@ from scipy.special import bdtr
 
 from replication.step import check, run, truth, value
 from steps.shared import harmonic
-from steps.shared.plain import beside_a_boundary, check_sample, overturns
+from steps.shared.samples import beside_a_boundary, check_sample, overturns
 from steps.shared.sweep import (
     FREE_FALL,
     VERTICAL,

@@ -13,9 +13,9 @@ import pandas as pd
 
 from replication.config import read_yaml
 from replication.step import check, run, truth
-from steps.shared import plain
 from steps.shared.falls import GRID, STEP, share_that_stays
 from steps.shared.lobes import Lobe, record_of
+from steps.shared.samples import Cell, check_sample
 from steps.shared.sentences import (
     compared,
     half_range,
@@ -91,7 +91,7 @@ def row_of_case(
     }
 
 
-def sides(case: Mapping[str, Any], row: Mapping[str, Any], height: float) -> Iterator[plain.Cell]:
+def sides(case: Mapping[str, Any], row: Mapping[str, Any], height: float) -> Iterator[Cell]:
     """Yield outcomes beside both minima, which the plain solver repeats."""
     column, lobes = column_and_lobes(case, height)
     motion = motion_of(column, lobes)
@@ -111,7 +111,7 @@ def compute(
     height, rows, samples = column["half_height"], [], []
     for case in read_cases(cases):
         rows.append(row_of_case(case, height, spec, contacts))
-        plain.check_sample(sides(case, rows[-1], height))
+        check_sample(sides(case, rows[-1], height))
         motion = motion_of(*column_and_lobes(case, height))
         times = motion.time_step * np.arange(motion.acceleration.size)
         part = {"id": case["id"], "time": times, "acceleration": motion.acceleration}

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, grid, truth
-from steps.shared import plain
+from steps.shared import plain, samples
 from steps.shared.cases import column_of
 from steps.shared.falls import Fall, Lowest, fall, lowest_of, searched_finely, share_that_stays
 from steps.shared.lobes import record_of, sine
@@ -200,7 +200,7 @@ def two_pulses(settings: Mapping[str, Any]) -> pd.DataFrame:
             rows.append(labels | {"mass_ratio": gamma} | dict(zip(FOUND, lowest, strict=True)))
             for side, expected in ((-CLOSE, False), (CLOSE, True)):
                 sides.append((block, motion, None, lowest.wide_lower + side, expected))
-    plain.check_sample(sides)
+    samples.check_sample(sides)
     return pd.DataFrame(rows)
 
 
