@@ -53,7 +53,7 @@ def clockwise(arm, force):
 def bodies_of(frame, cap):
     """Return two columns of 1 kg and their cap beam, and the mass of all three."""
     frame = th.RockingFrame(frame.column, min(frame.mass_ratio, NEARLY))
-    bodies = ThreeBodies(frame, cap.span, 2.0 * cap.half_depth)
+    bodies = ThreeBodies(frame, cap)
     return bodies, 2.0 * (1.0 + frame.mass_ratio)
 
 

@@ -9,25 +9,19 @@ from derivation.printed import EQUATIONS, rectangular_column
 from replication.step import check, power_above, run, truth
 from steps.shared.cases import cap_of, pulse_on
 from steps.shared.three_bodies import simulate_three_bodies
-from topheavy import (
-    STANDARD_GRAVITY,
-    Column,
-    RockingBlock,
-    RockingFrame,
-    simulate,
-)
+from topheavy import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame, simulate
 from topheavy.bodies.free_rocking import quarter_period
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.bodies.structures import simplified
 from topheavy.forces.contacts import forces_at
 from topheavy.kernel.step import TOLERANCE
 
-AGREE = 1e-6  # of α, of √r and of the weight: what two integrations may differ by
-ROUNDING = 1e-14  # of lengths over R
-CLOSE = 1e-8  # of a number that two formulas give
-SMALLEST = 1e-3  # of α: forces are compared beyond this rotation, away from impacts
-SMALLEST_BOUNCE = 1e-5  # of p̂ α: the last bounces before rest, which both cut off, are left out
-STEP_ASIDE = 1e-6  # of a threshold, to either side
+AGREE = 1e-6  # difference of two integrations: rotations times α, √r, forces times the weight
+ROUNDING = 1e-14  # difference of lengths, times R
+CLOSE = 1e-8  # relative difference of a number by two formulas
+SMALLEST = 1e-3  # rotation beyond which forces are compared, times α
+SMALLEST_BOUNCE = 1e-5  # velocity at an impact, times p̂ α; both solvers cut off slower bounces
+STEP_ASIDE = 1e-6  # relative distance from a threshold, to either side
 
 
 # The frame as three bodies ------------------------------------------------------------------------
@@ -39,21 +33,18 @@ def three_bodies(frame, cap, pulse, duration, samples):
     The bodies have nine coordinates, and use neither Eq. (23) nor Eq. (25). Their equivalent column
     has the size R̂, and is given the frame's √r.
     """
-    shape = {"span": cap["span"], "cap_depth": cap["depth"], "duration": duration}
-    bodies = simulate_three_bodies(frame, pulse, **shape, samples=samples)
+    bodies = simulate_three_bodies(frame, cap, pulse, duration=duration, samples=samples)
     times, alpha, p = bodies.time, frame.slenderness, frame.frequency_parameter
-    block = simulate(frame, pulse, duration=duration, samples=times)
-    both = np.isfinite(block.rotation) & np.isfinite(bodies.rotation[:, 0])
-
-    def apart(other):
-        return np.nanmax(np.abs(bodies.rotation - other.rotation[:, None])[both]) / alpha
-
     scale = frame.equivalent_size / frame.column.size
     equivalent = Column(scale * frame.column.half_width, scale * frame.column.half_height)
-    twin, other = (
-        simulate(equivalent.block(ratio), pulse, duration=duration, samples=times)
-        for ratio in (frame.restitution, equivalent.restitution)
+    block, twin, larger_column = (
+        simulate(structure, pulse, duration=duration, samples=times)
+        for structure in (frame, equivalent.block(frame.restitution), equivalent)
     )
+    rocking = np.isfinite(block.rotation) & np.isfinite(bodies.rotation[:, 0])
+
+    def apart(response):
+        return np.nanmax(np.abs(bodies.rotation - response.rotation[:, None])[rocking]) / alpha
 
     before = simulate(frame, pulse, samples=block.impact_times - 1e-9 / p).velocity
     impacts = block.impact_times[np.abs(before) > SMALLEST_BOUNCE * p * alpha]
@@ -61,10 +52,10 @@ def three_bodies(frame, cap, pulse, duration, samples):
     ratios = bodies.velocity_ratios[nearest]
 
     ground, weight = pulse.excitation(times), 2.0 * (1.0 + frame.mass_ratio) * STANDARD_GRAVITY
-    closed = forces_at(frame, cap_of(cap), block.rotation, block.velocity, ground)
+    closed = forces_at(frame, cap, block.rotation, block.velocity, ground)
     closed = np.stack([closed.horizontal.T, closed.vertical.T], -1)
     gap = np.abs(times[:, None] - block.impact_times).min(axis=1, initial=np.inf)
-    flying = both & (gap > 1e-3 / p) & (np.abs(block.rotation) > SMALLEST * alpha)
+    flying = rocking & (gap > 1e-3 / p) & (np.abs(block.rotation) > SMALLEST * alpha)
 
     # Fig. 2: at θ < 0 the forces on the cap beam balance its weight and inertia by Eqs. (6), (9).
     left = flying & (block.rotation < 0.0)
@@ -76,7 +67,7 @@ def three_bodies(frame, cap, pulse, duration, samples):
     differences = {
         "rotation_apart": apart(block),
         "equivalent_apart": apart(twin),
-        "equivalent_with_its_own_restitution": apart(other),
+        "equivalent_with_its_own_restitution": apart(larger_column),
         "restitution_apart": np.abs(ratios - frame.restitution).max(initial=0.0),
         "force_apart": np.abs(bodies.forces / weight - closed)[flying].max(),
         "cap_balance_apart": np.abs(on_cap)[left].max(initial=0.0) / weight,
@@ -109,18 +100,16 @@ def oscillator(frame, pulse):
     after = response.rotation[(response.time > first) & (response.time < second)]
     yield "rocks_left_then_right", "ground", pulse.excitation(pulse.duration / 8)
     yield "rocks_left_then_right", "overturned", response.overturned
-    for name, part in (("before", before), ("after", after)):
-        yield "rocks_left_then_right", f"least {name}", part.min()
-        yield "rocks_left_then_right", f"largest {name}", part.max()
+    for name, rotation in (("before", before), ("after", after)):
+        yield "rocks_left_then_right", f"least {name}", rotation.min()
+        yield "rocks_left_then_right", f"largest {name}", rotation.max()
 
+    block = RockingBlock(1.0, column.slenderness, 1.0)
     for start in (0.1, 0.5, 0.9, 0.99):
-        block = RockingBlock(1.0, column.slenderness, 1.0)
-        by_energy = quarter_period(block, start * block.slenderness)
-        motion = simulate(block, rotation=start * block.slenderness, duration=10.0, samples=2)
-        check(
-            abs(motion.impact_times[0] - by_energy) < 1e-7,
-            f"quarter periods {motion.impact_times[0]}, {by_energy}",
-        )
+        rotation = start * block.slenderness
+        by_energy = quarter_period(block, rotation)
+        impact, *_ = simulate(block, rotation=rotation, duration=10.0, samples=2).impact_times
+        check(abs(impact - by_energy) < 1e-7, f"quarter periods {impact}, {by_energy}")
         yield "period_depends_on_amplitude", f"quarter period from {start} α, 1/p", by_energy
 
     nearly, limit = RockingFrame(column, 1e9).block().linear(), simplified(frame)["all"]
@@ -132,39 +121,38 @@ def oscillator(frame, pulse):
 def structure(column, mass_ratios):
     """Yield what geometry and algebra give: statement, quantity and number."""
     rotations = np.linspace(-column.slenderness, column.slenderness, 101)
-    moved = np.transpose(cap_displacement(column, rotations))
-    seats = [2 if theta < 0.0 else 3 for theta in rotations]  # the corner that carries the cap beam
-    at_rest = column_outline(column, 0.0)
-    corners = [
-        column_outline(column, theta)[seat] - at_rest[seat]
-        for theta, seat in zip(rotations, seats, strict=True)
-    ]
-    gap = np.abs(corners - moved).max() / column.size
-    yield "cap_stays_on_its_seats", "gap over R", power_above(gap, ROUNDING)
+    displacements, gaps = np.transpose(cap_displacement(column, rotations)), []
+    for rotation, displacement in zip(rotations, displacements, strict=True):
+        corner = 2 if rotation < 0.0 else 3  # the one that carries the cap beam
+        seat = column_outline(column, rotation)[corner] - column_outline(column, 0.0)[corner]
+        gaps.append(np.abs(seat - displacement).max())
+    gap = power_above(max(gaps) / column.size, ROUNDING)
+    yield "cap_stays_on_its_seats", "gap over R", gap
 
     for gamma in mass_ratios:  # the weight of the cap beam acts at the height of the column tops
         height = (1.0 + 2.0 * gamma) / (1.0 + gamma) * column.half_height
+        size = RockingFrame(column, gamma).equivalent_size
         yield "centre_of_gravity_rises", f"height at γ = {gamma:g}", height
-        yield (
-            "centre_of_gravity_rises",
-            f"size at γ = {gamma:g}",
-            RockingFrame(column, gamma).equivalent_size,
-        )
+        yield "centre_of_gravity_rises", f"size at γ = {gamma:g}", size
 
-    has_it = cap_motion(NEGATIVE).v_ddot.has(acceleration)
-    yield "reactions_need_the_acceleration", "v̈ has θ̈", has_it
+    has_acceleration = cap_motion(NEGATIVE).v_ddot.has(acceleration)
+    yield "reactions_need_the_acceleration", "v̈ has θ̈", has_acceleration
 
     names = {equation.name: equation for equation in EQUATIONS}
     p = {"p": rectangular_column(NEGATIVE)[sp.Symbol("p")]}
     for version in ("printed", "meant"):
         for name, side in {"eq19": NEGATIVE, "eq22": POSITIVE}.items():
-            sides = read(getattr(names[name], version), side), read(names["eq23"].printed, side)
-            same = is_identically_zero((sides[0][1] - sides[1][1]).subs(p), side)
-            yield "compact_form", f"{version} {name}", same
+            _, right = read(getattr(names[name], version), side)
+            _, compact = read(names["eq23"].printed, side)
+            yield (
+                "compact_form",
+                f"{version} {name}",
+                is_identically_zero((right - compact).subs(p), side),
+            )
 
 
 def compute(settings, structures):
-    column = Column(**structures["temple"])
+    column, cap = Column(**structures["temple"]), cap_of(settings["cap"])
     duration, samples = settings["duration"], settings["samples"]
     pulses = [pulse_on(column, **pulse) for pulse in settings["pulses"]]
     frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
@@ -174,29 +162,24 @@ def compute(settings, structures):
     ]
     return {
         "three_bodies": [
-            three_bodies(frame, settings["cap"], pulse, duration, samples)
+            three_bodies(frame, cap, pulse, duration, samples)
             for pulse in pulses
             for frame in frames
         ],
         "statements": [
-            dict(zip(("statement", "quantity", "value"), (s, q, float(x)), strict=True))
-            for s, q, x in rows
+            {"statement": statement, "quantity": quantity, "value": float(number)}
+            for statement, quantity, number in rows
         ],
     }
 
 
 def findings(three_bodies, statements):
-    of = {name: rows.set_index("quantity").value for name, rows in statements.groupby("statement")}
+    numbers = {
+        name: rows.set_index("quantity").value for name, rows in statements.groupby("statement")
+    }
     worst = three_bodies.filter(regex="apart$|tilt$").max()
-    left, right = (
-        of["rocks_left_then_right"][[f"least {one}", f"largest {one}"]]
-        for one in ("before", "after")
-    )
-    ground, overturned = of["rocks_left_then_right"][["ground", "overturned"]]
-    heights, sizes = (
-        of["centre_of_gravity_rises"].filter(like=name) for name in ("height", "size")
-    )
-    compact = of["compact_form"] == 1.0
+    start, centre = numbers["rocks_left_then_right"], numbers["centre_of_gravity_rises"]
+    heights, sizes = centre.filter(like="height"), centre.filter(like="size")
     return {
         "one_degree_of_freedom": truth(
             worst.max() < AGREE and three_bodies.same_outcome.all(),
@@ -212,22 +195,24 @@ def findings(three_bodies, statements):
         "forces_on_the_cap_balance": truth(
             worst.cap_balance_apart < AGREE and three_bodies.instants.sum() > 0
         ),
-        "rigid_until_uplift": truth(list(of["rigid_until_uplift"]) == [1.0, 0.0]),
+        "rigid_until_uplift": truth(list(numbers["rigid_until_uplift"]) == [1.0, 0.0]),
         "rocks_left_then_right": truth(
-            ground > 0.0 == overturned
-            and left.iloc[0] < 0.0 >= left.iloc[1]
-            and right.iloc[0] >= 0.0 < right.iloc[1]
+            start["ground"] > 0.0 == start["overturned"]
+            and start["least before"] < 0.0 >= start["largest before"]
+            and start["least after"] >= 0.0 < start["largest after"]
         ),
         "period_depends_on_amplitude": truth(
-            (np.diff(of["period_depends_on_amplitude"]) > 0.0).all()
+            (np.diff(numbers["period_depends_on_amplitude"]) > 0.0).all()
         ),
-        "massless_columns_are_a_limit": truth((of["massless_columns_are_a_limit"] < CLOSE).all()),
-        "cap_stays_on_its_seats": truth(of["cap_stays_on_its_seats"].max() < 1e-12),
+        "massless_columns_are_a_limit": truth(
+            (numbers["massless_columns_are_a_limit"] < CLOSE).all()
+        ),
+        "cap_stays_on_its_seats": truth(numbers["cap_stays_on_its_seats"].max() < 1e-12),
         "centre_of_gravity_rises": truth(
             (np.diff(heights) > 0.0).all() and (np.diff(sizes) > 0.0).all()
         ),
-        "reactions_need_the_acceleration": truth(of["reactions_need_the_acceleration"].all()),
-        "compact_form": truth(compact.filter(like="meant").all()),
+        "reactions_need_the_acceleration": truth(numbers["reactions_need_the_acceleration"].all()),
+        "compact_form": truth((numbers["compact_form"].filter(like="meant") == 1.0).all()),
     }
 
 

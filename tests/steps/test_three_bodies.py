@@ -8,19 +8,19 @@ import pytest
 
 from steps.shared.newton_euler import ThreeBodies
 from steps.shared.three_bodies import simulate_three_bodies
-from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, simulate
+from topheavy import STANDARD_GRAVITY, Cap, Column, Pulse, RockingFrame, simulate
 from topheavy.bodies.kinematics import cap_displacement
 
 TRILITH = Column(0.11, 0.4)
 FRAME = RockingFrame(TRILITH, 0.434)
-SHAPE = {"span": 1.2, "cap_depth": 0.3}
+CAP = Cap(span=1.2, half_depth=0.15)
 PULSES = (
     Pulse("one-sine", 0.6, angular_frequency=8.0),
     Pulse("one-cosine", -0.5, angular_frequency=20.0),
     Pulse("ricker-symmetric", 0.5, angular_frequency=12.0),
     Pulse("ricker-symmetric", 0.6, angular_frequency=6.0),
 )
-rocked = partial(simulate_three_bodies, FRAME, **SHAPE)
+rocked = partial(simulate_three_bodies, FRAME, CAP)
 
 
 def off(history, frame, excitation, duration):
@@ -32,7 +32,7 @@ def off(history, frame, excitation, duration):
 
 def energy(history, frame):
     """Kinetic energy and that of the weight, J, for columns of 1 kg."""
-    mass = ThreeBodies(frame, **SHAPE).mass
+    mass = ThreeBodies(frame, CAP).mass
     lift = history.coordinates[:, [1, 4, 7]] @ mass[[1, 4, 7]]
     return history.velocity**2 @ mass / 2 + STANDARD_GRAVITY * lift
 
@@ -42,7 +42,7 @@ def energy(history, frame):
 @pytest.mark.parametrize("pulse", PULSES, ids=lambda pulse: f"{pulse.shape}-{pulse.amplitude}")
 def test_three_bodies_move_as_the_rocking_block(mass_ratio, pulse):
     frame = RockingFrame(TRILITH, mass_ratio)
-    history = simulate_three_bodies(frame, pulse, **SHAPE, duration=3.0, samples=200)
+    history = simulate_three_bodies(frame, CAP, pulse, duration=3.0, samples=200)
     assert off(history, frame, pulse, 3.0) < 1e-7
     block = simulate(frame, pulse, duration=3.0, samples=200)
     assert np.nanmax(np.abs(history.rotation)) > 0.01 * frame.slenderness
@@ -54,7 +54,7 @@ def test_three_bodies_move_as_the_rocking_block(mass_ratio, pulse):
 @pytest.mark.parametrize("mass_ratio", [0.0, 1.0, 100.0])
 def test_three_bodies_rock_to_rest_as_the_rocking_block(mass_ratio):
     frame = RockingFrame(TRILITH, mass_ratio)
-    history = simulate_three_bodies(frame, PULSES[2], **SHAPE, duration=12.0, samples=200)
+    history = simulate_three_bodies(frame, CAP, PULSES[2], duration=12.0, samples=200)
     assert off(history, frame, PULSES[2], 12.0) < 1e-7
     assert history.outcome == "rests"
     # the last bounces are slower than their error, hence the first alone
@@ -104,4 +104,4 @@ def test_contacts_that_come_apart_are_an_error(monkeypatch):
 
 def test_span_of_overlapping_columns_is_refused():
     with pytest.raises(ValueError, match=r"span is 0\.1 m; expected more than the width of a col"):
-        rocked(PULSES[2], duration=1.0, span=0.1)
+        simulate_three_bodies(FRAME, Cap(0.1, 0.15), PULSES[2], duration=1.0)

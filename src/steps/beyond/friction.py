@@ -12,28 +12,21 @@ from steps.shared.three_bodies import simulate_three_bodies
 from topheavy import Cap, Column, RockingFrame, impact_impulses, simulate
 from topheavy.forces.contacts import forces_at
 
-AGREE = 1e-3  # of tan α: required friction by the closed form and by Newton's and Euler's equations
+AGREE = 1e-3  # difference of the required friction of two solvers, times tan α
 
 
 def compute(settings, structures):
     column = Column(**structures[settings["structure"]])
-    cases = [(0.0, 0.0)]  # the column alone
-    cases += [(bay, gamma) for bay in settings["bays"] for gamma in settings["mass_ratios"]]
+    ratios, amplitudes = grid(settings["frequency_ratios"]), geometric(settings["amplitudes"])
+    pulses = [
+        pulse_on(column, *labels) for labels in product(settings["shapes"], ratios, amplitudes)
+    ]
     rows = []
-    for bay, gamma in cases:
-        frame, cap = (
-            RockingFrame(column, gamma),
-            Cap(bay or settings["bays"][0], settings["depth"] / 2.0),
-        )
-        survived = [
-            row
-            for place in product(
-                settings["shapes"],
-                grid(settings["frequency_ratios"]),
-                geometric(settings["amplitudes"]),
-            )
-            if (row := required(frame, cap, pulse_on(column, *place), settings))
-        ]
+    for bay, gamma in [(0.0, 0.0), *product(settings["bays"], settings["mass_ratios"])]:
+        frame = RockingFrame(column, gamma)
+        cap = Cap(bay or settings["bays"][0], settings["depth"] / 2.0)
+        histories = (required(frame, cap, pulse, settings) for pulse in pulses)
+        survived = [row for row in histories if row]
         if gamma > 0.0:
             compare(frame, cap, max(survived, key=lambda row: row["required"]), settings)
         rows += [{"bay": bay, "mass_ratio": gamma} | row for row in survived]
@@ -47,10 +40,10 @@ def required(frame, cap, shaking, settings):
     The error is the change when every second sample is left out. The vertical reaction is the least
     of the four contacts over the weight, and at impacts the impulse over that of both bases.
     """
-    whole = simulate(frame, shaking, samples=2)
-    if whole.overturned:
+    response = simulate(frame, shaking, samples=2)
+    if response.overturned:
         return None
-    arcs = history(frame, shaking, settings["samples"], whole=whole)
+    arcs = history(frame, shaking, settings["samples"], whole=response)
     forces = forces_at(frame, cap, arcs.rotation, arcs.velocity, arcs.ground)
     friction, vertical = forces.friction_demand, [np.nanmin(forces.vertical)]
     largest, coarse = np.nanmax(friction), np.nanmax(friction[..., ::2])
@@ -70,23 +63,16 @@ def required(frame, cap, shaking, settings):
 
 def compare(frame, cap, row, settings):
     """Check the required friction of a pulse against that of three bodies until the pulse ends."""
-    place = (row[name] for name in ("shape", "frequency_ratio", "amplitude"))
-    shaking = pulse_on(frame.column, *place)
-    times = np.linspace(0.0, shaking.duration, settings["check_samples"])
-    motion = simulate(frame, shaking, samples=times)
-    ground = shaking.excitation(times)
+    labels = (row[name] for name in ("shape", "frequency_ratio", "amplitude"))
+    shaking = pulse_on(frame.column, *labels)
+    duration = shaking.duration
+    times = np.linspace(0.0, duration, settings["check_samples"])
+    motion, ground = simulate(frame, shaking, samples=times), shaking.excitation(times)
     forces = forces_at(frame, cap, motion.rotation, motion.velocity, ground)
-    first = np.fmax.reduce(forces.friction_demand)
-    bodies = simulate_three_bodies(
-        frame,
-        shaking,
-        span=cap.span,
-        cap_depth=2.0 * cap.half_depth,
-        duration=shaking.duration,
-        samples=times,
-    )
-    second = np.max(np.abs(bodies.forces[..., 0]) / bodies.forces[..., 1], axis=1)
-    apart = np.nanmax(np.abs(first - second)) / frame.uplift_acceleration
+    closed_form = np.fmax.reduce(forces.friction_demand)
+    bodies = simulate_three_bodies(frame, cap, shaking, duration=duration, samples=times)
+    by_bodies = np.max(np.abs(bodies.forces[..., 0]) / bodies.forces[..., 1], axis=1)
+    apart = np.nanmax(np.abs(closed_form - by_bodies)) / frame.uplift_acceleration
     check(
         apart < AGREE,
         f"for γ = {frame.mass_ratio:g} in a bay of {cap.span:g} m the required friction differs by "
@@ -118,7 +104,7 @@ def findings(friction_by_mass, settings):
             (table.required <= mu).all(),
             holds_when=None not in lightest.values(),
             condition=" and ".join(
-                f"γ ≥ {g:g} in the bay of {b:g} m" for b, g in lightest.items() if g
+                f"γ ≥ {gamma:g} in the bay of {bay:g} m" for bay, gamma in lightest.items() if gamma
             ),
         ),
         "contacts_stay_closed": truth(

@@ -26,16 +26,15 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy import checks
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
-from topheavy.checks import short_repr
+from topheavy.forces.contacts import Cap, checked_frame
 
 Vector = NDArray[np.float64]
 Sides = tuple[int, int]
 """For each column, the side of the base corner in contact: −1 left, +1 right."""
 
 COLUMNS = [2, 5]
-"""Where the rotations of the two columns are in q."""
+"""Indices in q of the rotations of the two columns."""
 
 # Six points of the bodies meet in four contacts: a base corner of each column with the ground, and
 # under the cap beam a point of it (taken positive) with a top corner of each column (negative).
@@ -48,36 +47,28 @@ _ROWS, _TURNS = 9 + 2 * _CONTACT, 3 * _BODY + 2
 
 @dataclass(frozen=True)
 class ThreeBodies:
-    """A rocking frame with two lengths that its equation of motion does not contain.
+    """A rocking frame of finite γ, and its cap beam with dimensions.
 
-    Parameters
-    ----------
-    frame : RockingFrame
-        Of finite γ.
-    span : float
-        Distance between the axes of the columns, m, more than their width.
-    cap_depth : float
-        Depth of the cap beam, m: a homogeneous rectangle that ends flush with the columns.
+    The cap beam is a homogeneous rectangle that ends flush with the columns.
     """
 
     frame: RockingFrame
-    span: float
-    cap_depth: float
+    cap: Cap
 
     def __post_init__(self) -> None:
-        if not isinstance(self.frame, RockingFrame):
-            raise ValueError(f"frame is {short_repr(self.frame)}; expected a RockingFrame")
+        checked_frame(self.frame, self.cap)
         if self.frame.mass_ratio == math.inf:
             raise ValueError("mass_ratio is ∞; expected a finite one, as a column weighs 1 kg here")
-        checks.wider_than_column(self.span, 2.0 * self.frame.column.half_width)
-        checks.positive("cap_depth", self.cap_depth, "m")
 
     @cached_property
     def mass(self) -> Vector:
         """Mass (kg), mass and central moment of inertia (kg m²) of each body, shape (9,)."""
         cap, inertia = 2.0 * self.frame.mass_ratio, self.frame.column.size**2 / 3.0
-        length = self.span + 2.0 * self.frame.column.half_width
-        cap_inertia = cap * (length**2 + self.cap_depth**2) / 12.0
+        length, depth = (
+            self.cap.span + 2.0 * self.frame.column.half_width,
+            2.0 * self.cap.half_depth,
+        )
+        cap_inertia = cap * (length**2 + depth**2) / 12.0
         return np.array([1.0, 1.0, inertia, 1.0, 1.0, inertia, cap, cap, cap_inertia])
 
     @cached_property
@@ -93,7 +84,7 @@ class ThreeBodies:
     def arms(self, sides: Sides) -> tuple[Vector, Vector]:
         """Return x and z (m) of the six points from the centres of their upright bodies."""
         b, h = self.frame.column.half_width, self.frame.column.half_height
-        x, z = self.span / 2.0, self.cap_depth / 2.0
+        x, z = self.cap.span / 2.0, self.cap.half_depth
         corner = np.array([b, b, -b, -b, -b, -b]) * np.array(sides)[_COLUMN]
         return np.array([0.0, 0.0, -x, x, 0.0, 0.0]) + corner, np.array([-h, -h, -z, -z, h, h])
 
@@ -155,7 +146,7 @@ def uplift_accelerations(bodies: ThreeBodies) -> dict[Sides, float]:
     """Return for each choice of corners the ground acceleration (g, signed) that lifts the others.
 
     Choices that no ground acceleration opens, as columns that lean against each other, are left
-    out. The accelerations of the frame at rest are linear in ü_g, so that two solutions tell.
+    out. The accelerations of the frame at rest are linear in ü_g, which two solutions determine.
     """
     levels: dict[Sides, float] = {}
     for sides in product((-1, 1), (-1, 1)):
@@ -170,5 +161,4 @@ def uplift_accelerations(bodies: ThreeBodies) -> dict[Sides, float]:
 def opening(bodies: ThreeBodies, sides: Sides, ground: float) -> Vector:
     """Return the angular accelerations (rad/s²) at which the other corners lift off at rest."""
     angular, _ = accelerations(bodies, sides, np.zeros(9), np.zeros(9), ground)
-    lifting: Vector = angular[COLUMNS] * np.array(sides)
-    return lifting
+    return np.asarray(angular[COLUMNS] * np.array(sides))

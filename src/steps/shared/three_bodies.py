@@ -23,25 +23,16 @@ from steps.shared.newton_euler import (
     opening,
     uplift_accelerations,
 )
-from topheavy import checks
 from topheavy.bodies.response import EndState, sample_times
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
+from topheavy.forces.contacts import Cap
 from topheavy.ground.pulses import Pulse
 
-TOLERANCE = 1e-12
-"""Of the integration, relative to the size of a motion as large as α."""
-
-BELOW = 1e-12
-"""Over α: an impact is where a column has passed the upright by so much, more than by rounding."""
-
-REST_PEAK = 1e-6
-"""Over α: a frame whose next bounce peaks below this may have come to rest."""
-
-LARGEST_GAP = 1e-6
-"""Of R: bodies further than this from upright, when a column is, have lost their contacts."""
-
-LOOKS = 4001
-"""Instants of a pulse at which a frame at rest is looked at: does the ground lift it?"""
+TOLERANCE = 1e-12  # tolerance of the integration, relative to a motion as large as α
+BELOW = 1e-12  # rotation beyond upright at which an impact is detected, times α; above rounding
+REST_PEAK = 1e-6  # peak of the next bounce below which a frame may have come to rest, times α
+LARGEST_GAP = 1e-6  # largest distance of a body from upright at an impact, times R
+LOOKS = 4001  # instants of a pulse at which the uplift of a frame at rest is tested
 
 
 class ThreeBodyResponse(NamedTuple):
@@ -80,10 +71,9 @@ class ThreeBodyResponse(NamedTuple):
 
 def simulate_three_bodies(
     frame: RockingFrame,
+    cap: Cap,
     pulse: Pulse,
     *,
-    span: float,
-    cap_depth: float,
     duration: float,
     samples: int | ArrayLike = 1000,
 ) -> ThreeBodyResponse:
@@ -91,12 +81,8 @@ def simulate_three_bodies(
 
     Parameters
     ----------
-    frame : RockingFrame
-    pulse : Pulse
-    span, cap_depth : float
-        Distance between the axes of the columns and depth of the cap beam, m.
     duration : float
-        Where the history ends, s.
+        End of the history, s.
     samples : int or array_like
         A number of uniform times from 0 to the duration, or increasing times in s.
 
@@ -114,11 +100,9 @@ def simulate_three_bodies(
     they are set to zero. It rests when the next bounce peaks below `REST_PEAK` of α and the ground
     cannot lift it before the bouncing has died out.
     """
-    bodies = ThreeBodies(frame, span, cap_depth)
-    until = checks.positive("duration", duration, "s")
-    times = sample_times(samples)
+    bodies, times = ThreeBodies(frame, cap), sample_times(samples)
     if isinstance(times, int):
-        times = np.linspace(0.0, until, times)
+        times = np.linspace(0.0, duration, times)
     sides, state = (1, 1), np.zeros(18)
     lifts = uplift_accelerations(bodies)
     level = min(abs(lift) for lift in lifts.values())
@@ -126,10 +110,11 @@ def simulate_three_bodies(
     length = np.array([size, size, 1.0] * 3)
     scale = TOLERANCE * alpha * np.append(length, math.sqrt(STANDARD_GRAVITY / size) * length)
     states, forces = np.full((times.size, 18), math.nan), np.full((times.size, 4, 2), math.nan)
-    hits: list[tuple[float, Vector]] = []
-    moving, outcome, time, end = False, "no uplift", 0.0, min(until, pulse.duration)
-    while time < until and outcome != "overturned":
-        stop = end if time < end else until
+    impacts: list[float] = []
+    velocity_ratios: list[Vector] = []
+    moving, outcome, time, end = False, "no uplift", 0.0, min(duration, pulse.duration)
+    while time < duration and outcome != "overturned":
+        stop = end if time < end else duration
         ground = pulse.excitation if time < end else np.zeros_like
         if not moving:
             lifted = _uplift(ground, time, stop, level)
@@ -174,7 +159,8 @@ def simulate_three_bodies(
         elif flight.t_events[0].size:
             sides = (-sides[0], -sides[1])
             state, ratios = _collided(bodies, sides, state, time)
-            hits.append((time, ratios))
+            impacts.append(time)
+            velocity_ratios.append(ratios)
             lifting = state[9:][COLUMNS] * sides
             rests = _rests(bodies, sides, ground, time, level, lifting.max(), ratios.max())
             moving = bool((lifting > 0.0).all()) and not rests
@@ -185,8 +171,8 @@ def simulate_three_bodies(
         states[:, :9],
         states[:, 9:],
         forces,
-        np.array([at for at, _ in hits]),
-        np.reshape([ratios for _, ratios in hits], (-1, 2)),
+        np.array(impacts),
+        np.reshape(velocity_ratios, (-1, 2)),
         outcome,
     )
 
