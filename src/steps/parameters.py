@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pandas as pd
 import sympy as sp
 
 from derivation.mechanics import RECTANGULAR_OF_TWO, potential_energy
@@ -13,15 +14,15 @@ from steps.shared.cases import column_of, lowest
 from topheavy import Column, FixedMassColumn, Pulse, RockingFrame
 from topheavy.bodies.free_rocking import restoring_moment
 
-ROUNDING = 1e-12  # of m_c g R
-DIGITS = 1e-8  # of a number in a table
-ASIDE = 1e-6  # of a minimum, to either side
+ROUNDING = 1e-12  # difference of moments, times m_c g R
+DIGITS = 1e-8  # relative error of a number in a table
+ASIDE = 1e-6  # relative distance from a minimum, to either side
 
 
 def moment_by_energy(mass_ratio, slenderness, rotations):
-    """Return −dV/dθ per column over m_c g R at positive rotations, V that of the three bodies."""
+    """Return dV/dθ per column over m_c g R at positive rotations, V that of the three bodies."""
     height = potential_energy(POSITIVE).subs(RECTANGULAR_OF_TWO) / (2 * m_c * g * R)
-    moment = -sp.simplify(height.diff(POSITIVE.rotation))
+    moment = sp.simplify(height.diff(POSITIVE.rotation))
     return sp.lambdify((alpha, gamma, POSITIVE.rotation), moment)(
         slenderness, mass_ratio, rotations
     )
@@ -40,73 +41,69 @@ def minimum(frame, shape, period):
     return high
 
 
+def moments(column, settings):
+    """Return moments of frames, and of a column with a fixed mass, over rotations up to α."""
+    frames = [RockingFrame(column, gamma) for gamma in (0.0, *settings["frames"])]
+    fixed, curves = FixedMassColumn(column, settings["frames"][0]), []
+    for structure in (*frames, fixed):
+        gamma, alpha = structure.mass_ratio, structure.slenderness
+        rotations = np.linspace(0.0, 1.0, settings["rotations"]) * alpha
+        if structure is fixed:
+            arm = math.hypot(fixed.half_base, fixed.centre_height)
+            moment = (1.0 + gamma) * arm / column.size * np.sin(alpha - rotations)
+        else:
+            moment = moment_by_energy(gamma, alpha, rotations)
+            apart = np.abs(restoring_moment(structure, rotations) - moment).max()
+            check(apart < ROUNDING, f"γ = {gamma:g}: the moment is {apart:.1g} m_c g R from dV/dθ")
+        stiffness = (structure.frequency_parameter / column.frequency_parameter) ** 2
+        curve = {
+            "mass": "fixed" if structure is fixed else "loose",
+            "mass_ratio": gamma,
+            "rotation_over_alpha": rotations / column.slenderness,
+            "moment": moment,
+            "moment_over_inertia": stiffness * np.sin(alpha - rotations),
+        }
+        curves.append(pd.DataFrame(curve))
+    return pd.concat(curves)
+
+
 def compute(settings, structures):
     column = Column(**structures["temple"])
     small = Column(column.half_width / 2, column.half_height / 2)
 
     gammas = [*np.linspace(0.0, settings["largest"], settings["points"]), math.inf]
-    frames = [RockingFrame(column, each) for each in gammas]  # any column: the ratios are the same
-    size_ratio = np.array([frame.equivalent_size for frame in frames]) / column.size
-    p_hat = np.array([frame.frequency_parameter for frame in frames])
-
+    frames = [RockingFrame(column, gamma) for gamma in gammas]  # of any column: ratios are the same
     angles = np.linspace(0.0, settings["largest_slenderness"], settings["slendernesses"])[1:]
-
-    shares = np.linspace(0.0, 1.0, settings["rotations"])
-    moments = []
-    for each in (0.0, *settings["frames"]):
-        frame, rotations = RockingFrame(column, each), shares * column.slenderness
-        moment = -moment_by_energy(each, column.slenderness, rotations)
-        apart = np.abs(restoring_moment(frame, rotations) - moment).max()
-        check(apart < ROUNDING, f"γ = {each:g}: the moment is {apart:.1g} m_c g R from −dV/dθ")
-        moments.append(("loose", each, frame, rotations, moment))
-    fixed = FixedMassColumn(column, settings["frames"][0])
-    rotations, arm = shares * fixed.slenderness, math.hypot(fixed.half_base, fixed.centre_height)
-    moment = (1.0 + fixed.mass_ratio) * arm / column.size * np.sin(fixed.slenderness - rotations)
-    moments.append(("fixed", fixed.mass_ratio, fixed, rotations, moment))
-
-    shown = {"small column": (small, 0.0), "column": (column, 0.0)}
-    shown |= {f"frame {each:g}": (column, each) for each in settings["frames"]}
+    shown = [("small column", RockingFrame(small, 0.0)), ("column", RockingFrame(column, 0.0))]
+    shown += [(f"frame {gamma:g}", RockingFrame(column, gamma)) for gamma in settings["frames"]]
     return {
         "mass_ratio": {
             "mass_ratio": gammas,
-            "frequency_ratio": p_hat / column.frequency_parameter,
-            "size_ratio": size_ratio,
+            "frequency_ratio": [f.frequency_parameter / column.frequency_parameter for f in frames],
+            "size_ratio": [frame.equivalent_size / column.size for frame in frames],
         },
         "restitution": [
             {
                 "slenderness_deg": angle,
-                "mass_ratio": each,
-                "restitution": RockingFrame(column_of(angle), each).restitution,
+                "mass_ratio": gamma,
+                "restitution": RockingFrame(column_of(angle), gamma).restitution,
                 "restitution_of_column": column_of(angle).restitution,
             }
-            for each in settings["mass_ratios"]
+            for gamma in settings["mass_ratios"]
             for angle in angles
         ],
-        "moment_rotation": [
-            {
-                "mass": support,
-                "mass_ratio": each,
-                "rotation_over_alpha": rotation / column.slenderness,
-                "moment": one,
-                "moment_over_inertia": (body.frequency_parameter / column.frequency_parameter) ** 2
-                * math.sin(body.slenderness - rotation),
-            }
-            for support, each, body, rotations, moment in moments
-            for rotation, one in zip(rotations, moment, strict=True)
-        ],
+        "moment_rotation": moments(column, settings),
         "four_structures": [
             {
                 "structure": name,
-                "mass_ratio": each,
-                "half_width": base.half_width,
-                "half_height": base.half_height,
-                "equivalent_size": RockingFrame(base, each).equivalent_size,
-                "uplift_acceleration": base.uplift_acceleration,
-                "minimum_overturning": minimum(
-                    RockingFrame(base, each), settings["shape"], settings["period"]
-                ),
+                "mass_ratio": frame.mass_ratio,
+                "half_width": frame.column.half_width,
+                "half_height": frame.column.half_height,
+                "equivalent_size": frame.equivalent_size,
+                "uplift_acceleration": frame.uplift_acceleration,
+                "minimum_overturning": minimum(frame, settings["shape"], settings["period"]),
             }
-            for name, (base, each) in shown.items()
+            for name, frame in shown
         ],
     }
 
@@ -118,8 +115,8 @@ def findings(mass_ratio, restitution, moment_rotation, four_structures):
     loss = restitution.restitution_of_column - restitution.restitution
     heavy = restitution.mass_ratio > 0.0
     rocks = restitution[heavy & (restitution.restitution >= 0.0)]
-    moments = moment_rotation[moment_rotation.mass == "loose"].pivot(
-        index="rotation_over_alpha", columns="mass_ratio", values="moment"
+    moments = moment_rotation[moment_rotation.mass == "loose"].pivot_table(
+        "moment", "rotation_over_alpha", "mass_ratio"
     )
     shapes = moments.iloc[:-1].div(moments[0.0].iloc[:-1], axis=0)  # all vanish at α
     minima = four_structures.minimum_overturning
@@ -138,8 +135,8 @@ def findings(mass_ratio, restitution, moment_rotation, four_structures):
         ),
         "frame_follows_the_columns_curve": truth(
             all(
-                abs(shapes[each] - (1.0 + 2.0 * each)).max() < DIGITS * shapes[each].max()
-                for each in shapes
+                abs(shape - (1.0 + 2.0 * gamma)).max() < DIGITS * shape.max()
+                for gamma, shape in shapes.items()
             )
         ),
         "order_of_the_four_structures": truth((np.diff(minima) > 0.0).all(), minima=minima),

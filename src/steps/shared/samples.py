@@ -1,6 +1,6 @@
-"""Samples of the outcomes of a rule, which the plain solver computes again.
+"""Outcomes and histories of a rule that another solver computes again.
 
-A sample lies beside changes of the outcome, and where the Taylor solver is sure.
+A sample of outcomes lies beside changes of the outcome, and where the Taylor solver is sure.
 """
 
 import math
@@ -11,7 +11,7 @@ import numpy as np
 
 from replication.step import check
 from steps.shared import plain
-from topheavy import Record, RockingBlock, judge
+from topheavy import Record, Response, RockingBlock, judge
 
 NEAR = 1e-3  # relative: largest distance of a factor from a change of outcome
 NUDGE = 1e-9  # relative change of a motion, smaller than any measurement resolves
@@ -69,3 +69,19 @@ def check_sample(cells: Iterable[Cell]) -> None:
     text = f"the plain solver has {differ} of {compared} outcomes otherwise"
     print(text, flush=True)
     check(compared > 0 and differ == 0, text)
+
+
+def check_histories(
+    response: Response, repeated: Iterable[Response], agree: float, case: str
+) -> None:
+    """Stop the step unless other solvers agree with a response, in rotations (times α) and outcome.
+
+    Rotations are compared up to |θ| = 2α, as differences grow beyond.
+    """
+    upright = np.abs(response.rotation) <= 2.0 * response.slenderness
+    for history in repeated:
+        apart = np.abs(history.rotation - response.rotation)[upright].max() / response.slenderness
+        check(
+            apart < agree and history.outcome == response.outcome,
+            f"{case}: two solvers are {apart:.1g} α apart, or differ in outcome",
+        )
