@@ -12,23 +12,24 @@ visit being the motion between two impacts, and for some structures as an accele
 import math
 import warnings
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from itertools import pairwise
+from functools import partial
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from replication.step import check, run, truth, value
-from steps.shared.cases import column_of
+from steps.shared.cases import bisected, column_of, lowered
+from steps.shared.sentences import half_range
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
     FixedMassColumn,
     Pulse,
     Record,
+    Response,
     RockingBlock,
     RockingFrame,
     simulate,
@@ -37,14 +38,12 @@ from topheavy import (
 SUPPORTS = {"frame": RockingFrame, "fixed mass": FixedMassColumn}
 FIRST = range(1, 6)  # numbers of visits n of V_n
 LIMIT = math.inf  # number of visits of V*
-BEGIN = (0.97, 1.04)  # ends of a bisection over the stated velocity, which is not their middle
-FLIGHTS = (8.0, 100.0)  # times 1/p: longest visits that are tried
+BEGIN = (0.97, 1.04)  # ends of a bisection, times the stated velocity, which is not their middle
+FLIGHTS = (8.0, 100.0)  # longest visits that are tried, times 1/p
 BEFORE = 1.0 - 1e-9  # share of the time of an impact, at which the block has not lost speed yet
-FORGOTTEN = (
-    1e-7  # share of a start of which so many impacts leave no more: as good as infinitely many
-)
-SETTLED = 1e-3  # the same, under a motion with ramps
-CREEP = 0.5  # share of the uplift acceleration with which a motion with ramps begins
+FORGOTTEN = 1e-7  # share of a first rate: impacts that leave less of it stand for infinitely many
+SETTLED = 1e-3  # likewise under a motion with ramps
+CREEP = 0.5  # acceleration with which a motion with ramps begins, times the uplift acceleration
 
 
 def velocity(block: RockingBlock, visits: float) -> float:
@@ -56,53 +55,50 @@ def velocity(block: RockingBlock, visits: float) -> float:
 
 
 def break_even(column: RockingBlock, block: RockingBlock, visits: float) -> float:
-    """Return by which share a lower √r of the column alone makes both V_n equal; NaN if none."""
+    """Return the reduction of √r of the column alone that makes both V_n equal; NaN if none."""
 
-    def excess(share: float) -> float:
-        lower = replace(column, restitution=(1.0 - share) * column.restitution)
-        return velocity(lower, visits) - velocity(block, visits)
+    def excess(reduction: float) -> float:
+        return velocity(lowered(column, reduction), visits) - velocity(block, visits)
 
     return brentq(excess, 0.0, 1.0) if excess(0.0) * excess(1.0) < 0.0 else math.nan
 
 
 def stated(structures: dict, settings: dict) -> Iterator[dict]:
     """Yield V_1 to V_5 and V* of columns, frames and columns with a fixed mass."""
-    for name in settings["structures"]:
+    cases = product(settings["structures"], SUPPORTS, settings["mass_ratios"])
+    for name, support, gamma in cases:
+        if gamma == 0.0 and support != "frame":
+            continue
         column = Column(**structures[name])
-        for support, build in SUPPORTS.items():
-            for gamma in settings["mass_ratios"]:
-                if gamma == 0.0 and support != "frame":
-                    continue
-                block = build(column, gamma).block()
-                root = block.restitution
-                yield {
-                    "structure": name,
-                    "support": support,
-                    "mass_ratio": gamma,
-                    "slenderness_deg": math.degrees(block.slenderness),
-                    "restitution": root,
-                    **{f"velocity_{n}": velocity(block, n) for n in FIRST},
-                    "velocity": velocity(block, LIMIT),
-                    "gain": velocity(block, LIMIT) / velocity(column.block(), LIMIT) - 1.0,
-                    # vertical acceleration, g, from which no velocity is guaranteed
-                    "vertical": (1.0 - root**2) / (1.0 + root**2),
-                }
+        block = SUPPORTS[support](column, gamma).block()
+        root = block.restitution
+        yield {
+            "structure": name,
+            "support": support,
+            "mass_ratio": gamma,
+            "slenderness_deg": math.degrees(block.slenderness),
+            "restitution": root,
+            **{f"velocity_{n}": velocity(block, n) for n in FIRST},
+            "velocity": velocity(block, LIMIT),
+            "gain": velocity(block, LIMIT) / velocity(column.block(), LIMIT) - 1.0,
+            # vertical acceleration, g, from which no velocity is guaranteed
+            "vertical": (1.0 - root**2) / (1.0 + root**2),
+        }
 
 
 def over_visits(column: Column, settings: dict) -> Iterator[dict]:
     """Yield the gain of frames in V_n, and how much it depends on the √r of the column alone."""
-    alone = column.block()
-    lower = replace(alone, restitution=(1.0 - settings["reduction"]) * alone.restitution)
-    for gamma in settings["mass_ratios"][1:]:
+    solitary = column.block()
+    lower = lowered(solitary, settings["reduction"])
+    for gamma, visits in product(settings["mass_ratios"][1:], (*settings["visits"], LIMIT)):
         block = RockingFrame(column, gamma).block()
-        for visits in (*settings["visits"], LIMIT):
-            yield {
-                "mass_ratio": gamma,
-                "visits": visits,
-                "gain": velocity(block, visits) / velocity(alone, visits) - 1.0,
-                "gain_if_lower": velocity(block, visits) / velocity(lower, visits) - 1.0,
-                "break_even": break_even(alone, block, visits),
-            }
+        yield {
+            "mass_ratio": gamma,
+            "visits": visits,
+            "gain": velocity(block, visits) / velocity(solitary, visits) - 1.0,
+            "gain_if_lower": velocity(block, visits) / velocity(lower, visits) - 1.0,
+            "break_even": break_even(solitary, block, visits),
+        }
 
 
 # The worst motion ---------------------------------------------------------------------------------
@@ -125,51 +121,44 @@ def landing(block: RockingBlock, start: float) -> float:
 
 
 def survives(block: RockingBlock, limit: float, visits: float) -> bool:
-    """Return whether a block survives so many visits under the worst motion within ±`limit`, m/s.
+    """Return whether a block survives some visits under the worst motion within ±`limit`, m/s.
 
     A jump D of the ground velocity changes φ̇ by (p²/g) D cos(α − φ), here at φ = 0.
     """
     factor = block.frequency_parameter**2 / STANDARD_GRAVITY * math.cos(block.slenderness)
     jump, rate = 2.0 * limit * factor, 0.0
-    for _ in range(many(block, FORGOTTEN) if visits == LIMIT else int(visits)):
+    for _ in range(impacts_until(block, FORGOTTEN) if visits == LIMIT else int(visits)):
         rate = landing(block, block.restitution * rate + jump)
         if math.isnan(rate):
             return False
     return True
 
 
-def many(block: RockingBlock, share: float) -> int:
-    """Return after how many impacts less than a share of the first rate is left."""
+def impacts_until(block: RockingBlock, share: float) -> int:
+    """Return the number of impacts after which less than a share of the first rate is left."""
     return math.ceil(math.log(share) / math.log(block.restitution))
 
 
 def attacked(settings: dict) -> Iterator[dict]:
     """Yield V_n and V* by bisection, beside the stated ones, for columns and frames of 1 m size."""
     spec = settings["attack"]
-    cases = [
-        (angle, gamma, n)
-        for angle in spec["slendernesses"]
-        for gamma in settings["mass_ratios"]
-        for n in FIRST
-    ]
-    cases += [(angle, gamma, LIMIT) for angle in spec["limits"] for gamma in spec["mass_ratios"]]
+    cases = [*product(spec["slendernesses"], settings["mass_ratios"], FIRST)]
+    cases += product(spec["limits"], spec["mass_ratios"], [LIMIT])
     for angle, gamma, visits in cases:
         block = RockingFrame(column_of(angle), gamma).block()
         expected = velocity(block, visits)
-        low, high = (end * expected for end in BEGIN)
-        ends = [survives(block, end, visits) for end in (low, high)]
-        check(ends == [True, False], f"α = {angle:g}°, γ = {gamma:g}, n = {visits}: {ends}")
-        while high - low > spec["tolerance"] * expected:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if survives(block, middle, visits) else (low, middle)
+        found = bisected(
+            partial(survives, block, visits=visits),
+            [end * expected for end in BEGIN],
+            spec["tolerance"] * expected,
+            f"α = {angle:g}°, γ = {gamma:g}, n = {visits}",
+        )
         row = {"slenderness_deg": angle, "mass_ratio": gamma, "visits": visits}
-        yield row | {"stated": expected, "found": 0.5 * (low + high)}
+        yield row | {"stated": expected, "found": found}
 
 
-def worst_motion(
-    block: RockingBlock, limit: float, step: float
-) -> tuple[NDArray[np.float64], int, Any]:
-    """Return the worst motion with ramps, g, its number of visits, and the response to it.
+def worst_motion(block: RockingBlock, limit: float, step: float) -> tuple[Record, int, Response]:
+    """Return the worst motion with ramps, its number of visits, and the response to it.
 
     The ground creeps to −`limit` (m/s) without uplift. Then its velocity changes to the other
     limit within two time steps, and again after each impact of the response so far.
@@ -177,45 +166,46 @@ def worst_motion(
     uplift = block.uplift_acceleration
     steps = math.ceil(limit / (CREEP * uplift * STANDARD_GRAVITY * step))
     creep = np.full(steps, -limit / (steps * STANDARD_GRAVITY * step))
-    motion, side, visits = [0.0, *creep, 0.0], 1.0, 0
+    samples, side, visits = [0.0, *creep, 0.0], 1.0, 0
     ramp = 2.0 * limit / (STANDARD_GRAVITY * step)
-    while visits < many(block, SETTLED):
-        motion += [side * ramp, 0.0]
+    while visits < impacts_until(block, SETTLED):
+        samples += [side * ramp, 0.0]
         visits, side = visits + 1, -side
         with warnings.catch_warnings(action="ignore"):  # it is no record of an earthquake
-            response = simulate(block, Record(step, motion), samples=2)
+            motion = Record(step, samples)
+        response = simulate(block, motion, samples=2)
         if response.overturned:
             break
-        later = response.impact_times > (len(motion) - 2) * step
-        impact = response.impact_times[later][0]
-        motion += [0.0] * (math.ceil(impact / step) + 1 - len(motion))
-    return np.array(motion), visits, response
+        impact = response.impact_times[response.impact_times > (len(samples) - 2) * step][0]
+        samples += [0.0] * (math.ceil(impact / step) + 1 - len(samples))
+    return motion, visits, response
 
 
 def ramped(settings: dict) -> Iterator[dict]:
     """Yield outcomes of worst motions with ramps, a little below and above V*."""
     spec = settings["ramps"]
-    for angle in spec["slendernesses"]:
-        for gamma in spec["mass_ratios"]:
-            block = RockingFrame(column_of(angle), gamma).block()
-            step, alpha = spec["time_step"] / block.frequency_parameter, block.slenderness
-            for share in spec["shares"]:
-                limit = share * velocity(block, LIMIT)
-                motion, visits, response = worst_motion(block, limit, step)
-                speeds = STANDARD_GRAVITY * step * np.cumsum(motion)
-                half_range = 0.5 * (max(speeds.max(), 0.0) - speeds.min())
-                check(abs(half_range / limit - 1.0) < 1e-9, f"half the range is {half_range:g} m/s")
-                sine = math.sin(alpha / 2.0) * math.sqrt(max(1.0 - share**2, 0.0))
-                yield {
-                    "slenderness_deg": angle,
-                    "mass_ratio": gamma,
-                    "share": share,
-                    "largest_acceleration": np.abs(motion).max(),
-                    "visits": visits,
-                    "overturned": response.overturned,
-                    "peak": response.peak_rotation / alpha,
-                    "largest_peak": 1.0 - 2.0 * math.asin(sine) / alpha,
-                }
+    for angle, gamma, share in product(
+        *(spec[n] for n in ("slendernesses", "mass_ratios", "shares"))
+    ):
+        block = RockingFrame(column_of(angle), gamma).block()
+        step, alpha = spec["time_step"] / block.frequency_parameter, block.slenderness
+        limit = share * velocity(block, LIMIT)
+        motion, visits, response = worst_motion(block, limit, step)
+        reached = half_range(motion)
+        check(
+            abs(reached / limit - 1.0) < 1e-9, f"half the range is {reached:g} m/s, not {limit:g}"
+        )
+        sine = math.sin(alpha / 2.0) * math.sqrt(max(1.0 - share**2, 0.0))
+        yield {
+            "slenderness_deg": angle,
+            "mass_ratio": gamma,
+            "share": share,
+            "largest_acceleration": motion.peak_acceleration,
+            "visits": visits,
+            "overturned": response.overturned,
+            "peak": response.peak_rotation / alpha,
+            "largest_peak": 1.0 - 2.0 * math.asin(sine) / alpha,
+        }
 
 
 # Until the first impact ---------------------------------------------------------------------------
@@ -261,11 +251,8 @@ def findings(
     settings: dict,
 ) -> dict[str, Any]:
     """Return whether the stated velocities are sharp, and what they and the first visit order."""
-    attack, motions, tolerance = (
-        guarantee_attack,
-        guarantee_motions,
-        settings["attack"]["tolerance"],
-    )
+    attack, motions = guarantee_attack, guarantee_motions
+    tolerance = settings["attack"]["tolerance"]
     apart = (attack.found / attack.stated - 1.0).abs()
     below = motions.share < 1.0
     fell = motions.overturned.astype(bool)
@@ -273,7 +260,7 @@ def findings(
     names = [*(f"velocity_{n}" for n in FIRST), "velocity"]
     frames = guarantee[guarantee.support == "frame"].groupby("structure")
     fixed = guarantee[guarantee.support == "fixed mass"]
-    of_structure = frames.get_group(settings["structure"]).sort_values("mass_ratio")
+    structure = frames.get_group(settings["structure"]).sort_values("mass_ratio")
     courses = [
         part.set_index("time").rotation_over_alpha
         for _, part in guarantee_order.groupby("mass_ratio")
@@ -289,8 +276,8 @@ def findings(
         "heavier_may_move_faster": truth(
             all(rises(part.sort_values("mass_ratio")[n]) for _, part in frames for n in names)
         ),
-        "first_velocity_of_the_column": value(of_structure.velocity_1.iloc[0], 0.0, "m/s"),
-        "first_velocity_of_the_heaviest": value(of_structure.velocity_1.iloc[-1], 0.0, "m/s"),
+        "first_velocity_of_the_column": value(structure.velocity_1.iloc[0], 0.0, "m/s"),
+        "first_velocity_of_the_heaviest": value(structure.velocity_1.iloc[-1], 0.0, "m/s"),
         "fixed_mass_may_not": truth((fixed.gain < 0.0).all(), lowest_loss=-fixed.gain.max()),
         "heavier_rotates_less": truth(
             all(len(apart) > 0 and (apart >= 0.0).all() for apart in ahead),

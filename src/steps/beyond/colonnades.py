@@ -8,11 +8,11 @@ import pandas as pd
 
 from replication.step import check, run, truth
 from steps.beyond.stones import HINGED, OPEN, VERSION, Stones, overturns
-from steps.shared.cases import cap_of, lowest, pulse_on
+from steps.shared.cases import bisected, cap_of, lowest, pulse_on
 from topheavy import Column, RockingBlock, RockingFrame
 
-AGREE = 0.03  # of the column's minimum: the largest difference between pymunk and theory
-UPLIFT = "constant"  # the shape of a long push, which overturns from uplift on
+AGREE = 0.03  # largest difference between pymunk and theory, times the column's minimum
+UPLIFT = "constant"  # shape of a long push, which overturns from uplift on
 
 
 def levers(columns, span, half_width):
@@ -60,24 +60,17 @@ def compute(settings, structures):
             column, gamma, cap, columns=count, joints=joints, gap=settings["gap"], **solver
         )
         theory = lowest(block, pulse).factor / pulse.amplitude
+
+        def survives(factor, stones=stones, pulse=pulse):
+            return not overturns(stones, pulse.scaled(factor))
+
+        ends = theory - settings["near"], theory + settings["near"]
+        engine = bisected(survives, ends, settings["resolution"], f"{stones}, {pulse}")
         rows.append(
             {"joints": joints, "mass_ratio": gamma, **kind, **solver}
-            | {"theory": theory, "engine": bisected(stones, pulse, theory, settings)}
-            | {"solver": VERSION}
+            | {"theory": theory, "engine": engine, "solver": VERSION}
         )
     return pd.DataFrame(rows)
-
-
-def bisected(stones, pulse, theory, settings):
-    """Return the factor on a pulse from which it overturns, to half the resolution."""
-    low, high = theory - settings["near"], theory + settings["near"]
-    outcomes = [overturns(stones, pulse.scaled(factor)) for factor in (low, high)]
-    message = f"{stones}, {pulse}: outcomes at {low:.3f} and {high:.3f} are {outcomes}"
-    check(outcomes == [False, True], message)
-    while high - low > settings["resolution"]:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if overturns(stones, pulse.scaled(middle)) else (middle, high)
-    return 0.5 * (low + high)
 
 
 def findings(colonnades, settings):

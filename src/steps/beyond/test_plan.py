@@ -1,21 +1,21 @@
 """A test of one inequality: a pulse that overturns the column and not the frame, and repeats."""
 
 import math
-from itertools import count
+from itertools import count, product
 
 import pandas as pd
 from scipy.special import bdtr, ndtr
 
 from replication.step import check, run, value
 from steps.shared import plain
-from steps.shared.cases import lowest
+from steps.shared.cases import lowered, lowest
 from topheavy import Column, Pulse, RockingFrame, judge
 
 SOLVERS = judge, plain.judge
 
 
 def compute(settings):
-    """Return for each pair of minima the pulse between them, and the repeats that tell them apart.
+    """Return for each pair of minima a pulse between them, and the repeats that distinguish them.
 
     The second of a pair has the higher minimum: the frame, or the column with a lower √r. The
     minimum scatters from test to test, by one standard deviation of its logarithm. With a √r that
@@ -23,18 +23,17 @@ def compute(settings):
     """
     column = Column(**settings["column"])
     omega = settings["frequency_ratio"] * column.frequency_parameter
-    unit, alone = Pulse(settings["shape"], 1.0, angular_frequency=omega), column.block()
-    others = {"frame": RockingFrame(column, settings["mass_ratio"]).block()}
+    unit, block = Pulse(settings["shape"], 1.0, angular_frequency=omega), column.block()
+    stronger = {"frame": RockingFrame(column, settings["mass_ratio"]).block()}
     for reduction in settings["reductions"]:
-        lower = alone.with_restitution(alone.restitution * (1.0 - reduction))
-        others[f"column, √r {reduction:.0%} lower"] = lower
+        stronger[f"column, √r {reduction:.0%} lower"] = lowered(block, reduction)
     rows = []
-    for name, other in others.items():
-        low, high = (lowest(block, unit).factor for block in (alone, other))
+    for name, frame in stronger.items():
+        low, high = (lowest(structure, unit).factor for structure in (block, frame))
         pulse = unit.scaled(math.sqrt(low * high))
-        fell = [solve(block, pulse).overturned for block in (alone, other) for solve in SOLVERS]
+        fell = [solve(body, pulse).overturned for body, solve in product((block, frame), SOLVERS)]
         check(fell == [True, True, False, False], f"{name}, {pulse}: overturned {fell}")
-        survived = surviving_reduction(alone, pulse)
+        survived = surviving_reduction(block, pulse)
         for scatter in settings["scatters"]:
             right = float(ndtr(0.5 * math.log(high / low) / scatter))
             rows.append(
@@ -56,8 +55,7 @@ def surviving_reduction(block, pulse):
     """Return the lowest reduction of √r, in steps of 1 %, with which a block survives a pulse."""
 
     def survives(reduction):
-        lower = block.with_restitution(block.restitution * (1.0 - reduction))
-        fell = {solve(lower, pulse).overturned for solve in SOLVERS}
+        fell = {solve(lowered(block, reduction), pulse).overturned for solve in SOLVERS}
         check(len(fell) == 1, f"the solvers disagree on √r lower by {reduction:g} under {pulse}")
         return fell == {False}
 
@@ -74,9 +72,9 @@ def findings(test_plan):
     rows = test_plan[test_plan.scatter == test_plan.scatter.max()]
     first, repeats = rows.iloc[0], rows.repeats.to_list()
     error = 1e-6 * first.pulse  # far above the width of the brackets of minima
-    more = {"period": first.period, "scatter": first.scatter, "repeats": repeats}
-    more |= {"survived_if_lower_by": first.survived_if_lower_by}
-    return {"pulse": value(first.pulse, error, "g", **more)}
+    evidence = {"period": first.period, "scatter": first.scatter, "repeats": repeats}
+    evidence |= {"survived_if_lower_by": first.survived_if_lower_by}
+    return {"pulse": value(first.pulse, error, "g", **evidence)}
 
 
 if __name__ == "__main__":

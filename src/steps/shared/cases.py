@@ -1,19 +1,26 @@
 """Columns, cap beams, pulses and minima by numbers of the config, as several rules take them."""
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from topheavy import Cap, Column, LowestOverturning, Pulse, lowest_overturning
+from replication.step import check
+from topheavy import Cap, Column, LowestOverturning, Pulse, RockingBlock, lowest_overturning
 from topheavy.bodies.structures import Structure
 
 HIGHEST, FLOOR = 40.0, 1e-3
-"""Of a search, over the uplift acceleration: its end, and the interval that it cannot miss."""
+"""End of a search, and the widest interval that it may miss, times the uplift acceleration."""
 
 
 def column_of(degrees: float, size: float = 1.0) -> Column:
     """Return the column of a slenderness in degrees and a size R in m, but for rounding."""
     slenderness = math.radians(degrees)
     return Column(size * math.sin(slenderness), size * math.cos(slenderness))
+
+
+def lowered(block: RockingBlock, reduction: float) -> RockingBlock:
+    """Return a block with √r lower by a relative reduction."""
+    return block.with_restitution((1.0 - reduction) * block.restitution)
 
 
 def cap_of(spec: dict[str, float]) -> Cap:
@@ -38,8 +45,8 @@ def lowest(
 ) -> LowestOverturning | None:
     """Return the lowest interval of peak accelerations of a pulse that overturn a structure, g.
 
-    The search begins at uplift and ends at `highest`, g; None if nothing overturns up to there. The
-    floor is over the uplift acceleration.
+    The search begins at uplift and ends at `highest`, g; None if no acceleration up to it overturns
+    the structure. The floor is normalised by the uplift acceleration.
     """
     level = structure.block().uplift_acceleration
     end = HIGHEST * level if highest is None else highest
@@ -48,3 +55,16 @@ def lowest(
     unit = replace(pulse, amplitude=1.0)
     interval = lowest_overturning(structure, unit, (level, end), floor=floor * level)
     return interval if interval.bracket else None
+
+
+def bisected(
+    survives: Callable[[float], bool], ends: Sequence[float], width: float, case: str
+) -> float:
+    """Return the number between two ends up to which a structure survives, to half a width."""
+    low, high = ends
+    outcomes = [survives(low), survives(high)]
+    check(outcomes == [True, False], f"{case}: survives at {low:g} and {high:g}: {outcomes}")
+    while high - low > width:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if survives(middle) else (low, middle)
+    return 0.5 * (low + high)

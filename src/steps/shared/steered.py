@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from topheavy import Column, RockingFrame
 
 Array = NDArray[np.float64]
-STEP, STEPS = 0.006, 300  # time step over 1/p, and their largest number
-STRONGEST = 100.0  # g: push to either side
-HOVER = 0.1  # share of α: below it a jump outward is likely
-ROUNDING = 1e-5  # share of the largest Y of a history: errors of the integration
+STEP, STEPS = 0.006, 300  # time step, times 1/p, and largest number of steps
+STRONGEST = 100.0  # largest push to either side, g
+HOVER = 0.1  # rotation below which a jump outward is likely, times α
+ROUNDING = 1e-5  # error of the integration, times the largest Y of a history
 
 
 def acceleration(phi: Array, push: Array, squares: Array, alpha: float) -> Array:
@@ -34,13 +34,13 @@ def moved(
     def slopes(angle: Array, speed: Array) -> tuple[Array, Array]:
         return speed, acceleration(angle, push, squares, alpha)
 
-    one = slopes(phi, rate)
-    two = slopes(phi + STEP / 2 * one[0], rate + STEP / 2 * one[1])
-    three = slopes(phi + STEP / 2 * two[0], rate + STEP / 2 * two[1])
-    four = slopes(phi + STEP * three[0], rate + STEP * three[1])
-    rows = zip(one, two, three, four, strict=True)
-    by = [STEP / 6 * (a + 2 * b + 2 * c + d) for a, b, c, d in rows]
-    return phi + by[0], rate + by[1]
+    k1 = slopes(phi, rate)
+    k2 = slopes(phi + STEP / 2 * k1[0], rate + STEP / 2 * k1[1])
+    k3 = slopes(phi + STEP / 2 * k2[0], rate + STEP / 2 * k2[1])
+    k4 = slopes(phi + STEP * k3[0], rate + STEP * k3[1])
+    steps = zip(k1, k2, k3, k4, strict=True)
+    turn, change = (STEP / 6 * (a + 2 * b + 2 * c + d) for a, b, c, d in steps)
+    return phi + turn, rate + change
 
 
 def compared(phi: Array, squares: Array, alpha: float) -> Array:
@@ -74,8 +74,8 @@ def attack(alpha: float, pairs: Any, factor: float, histories: int, seed: int) -
     squares = (np.array(p) / column.frequency_parameter) ** 2
     phi, largest = np.zeros((2, histories)), np.zeros(histories)
     rate = squares * math.cos(alpha) * draw.uniform(0.1, 1.5, histories)
-    alive, lost, first = np.full(histories, True), np.zeros(histories, bool), 0
-    swings = 0
+    alive, lost = np.full(histories, True), np.zeros(histories, bool)
+    first = swings = 0
     bold = draw.random(histories)  # share of the steps without the largest push inward
     for _ in range(STEPS):
         kind, share = draw.random((2, histories))
