@@ -30,14 +30,10 @@ from topheavy import (
 from topheavy.bodies.structures import Structure
 from topheavy.outcomes.minimum import lowest_of_many
 
-DISTANCES = (
-    1e-7,
-    1e-5,
-    1e-3,
-)  # over a minimum: where the plain solver judges
-CHUNK = 64  # factors that are tried in one call where a wide interval is sought
-SEED = 2014  # of the minima that the plain solver judges
-FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of a structure that overturns
+DISTANCES = (1e-7, 1e-5, 1e-3)  # relative distances from a minimum at which the plain solver judges
+CHUNK = 64  # factors in one call of a search for a wide interval
+SEED = 2014  # seed of the sample of minima that the plain solver judges
+FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # poses of a structure that overturns, times its last rotation
 COLUMN, FIXED, FRAME, PORTAL = "column", "fixed mass", "frame", "portal"
 
 
@@ -57,43 +53,43 @@ def lowest_by_two_floors(
 
     The second begins at uplift where the first minimum is close to it, and near it elsewhere.
     """
-    spec, levels = settings["search"], [one.block().uplift_acceleration for one, _ in cases]
-    searched = [at for at, level in enumerate(levels) if level < highest]
-    found: list[LowestOverturning | None] = [None] * len(cases)
+    spec = settings["search"]
+    levels = [structure.block().uplift_acceleration for structure, _ in cases]
+    minima: list[LowestOverturning | None] = [None] * len(cases)
 
     def search(ends: dict[int, tuple[float, float]], floor: float) -> None:
-        floors = [floor * levels[at] for at in ends]
-        pairs = zip(*(cases[at] for at in ends), strict=True)
+        floors = [floor * levels[case] for case in ends]
+        pairs = zip(*(cases[case] for case in ends), strict=True)
         intervals = lowest_of_many(*pairs, [*ends.values()], floors)
-        for at, interval in zip(ends, intervals, strict=True):
-            if interval.bracket and interval.bracket[1] < ends[at][1]:
-                found[at] = interval
+        for case, interval in zip(ends, intervals, strict=True):
+            if interval.bracket and interval.bracket[1] < ends[case][1]:
+                minima[case] = interval
 
-    search({at: (levels[at], highest) for at in searched}, spec["floor"])
+    first = {case: (level, highest) for case, level in enumerate(levels) if level < highest}
+    search(first, spec["floor"])
     below = {}
-    for at, interval in enumerate(found):
-        if interval and interval.factor > levels[at]:
-            close = interval.factor < spec["below"] * levels[at]
-            begin = levels[at] if close else (1.0 - spec["near"]) * interval.factor
-            below[at] = (max(begin, levels[at]), interval.factor)
+    for case, (level, interval) in enumerate(zip(levels, minima, strict=True)):
+        if interval and interval.factor > level:
+            is_close = interval.factor < spec["below"] * level
+            begin = level if is_close else (1.0 - spec["near"]) * interval.factor
+            below[case] = (max(begin, level), interval.factor)
     search(below, settings["floor"])
-    return found
+    return minima
 
 
 def lowest_wide(
     structure: Structure, pulse: Pulse, begin: float, highest: float, step: float, width: float
 ) -> float:
-    """Return the lowest acceleration from which all steps of a width overturn, g; infinite if none.
+    """Return where the lowest overturning interval of at least a width begins, g.
 
-    They are tried from the minimum on.
+    The search moves up from the minimum in equal steps; the result is infinite if there is none.
     """
     length = 0
     while begin <= highest:
         factors = begin + step * np.arange(CHUNK)
         factors = factors[factors <= highest]
-        for factor, overturned in zip(
-            factors, overturned_by(structure, pulse, factors), strict=True
-        ):
+        outcomes = overturned_by(structure, pulse, factors)
+        for factor, overturned in zip(factors, outcomes, strict=True):
             length = length + 1 if overturned else 0
             if length > round(width / step):
                 return float(factor - (length - 1) * step)
@@ -102,24 +98,28 @@ def lowest_wide(
 
 
 def errors_of(minima: Sequence[tuple[Structure, Pulse, LowestOverturning]]) -> list[float]:
-    """Return by how much the plain solver confirms each minimum, g; stop beyond 1e-3 of one."""
-    errors: dict[int, float] = {}
+    """Return the error (g) within which the plain solver confirms each minimum.
+
+    The step stops at a minimum that it does not confirm within 0.1 %.
+    """
+    errors = [math.nan] * len(minima)
     for distance in DISTANCES:
-        left = [at for at in range(len(minima)) if at not in errors]
+        left = [case for case, error in enumerate(errors) if math.isnan(error)]
         cells = []
-        for structure, pulse, interval in (minima[at] for at in left):
+        for structure, pulse, interval in (minima[case] for case in left):
             low, high = interval.bracket
             last = interval.upper[0] if interval.upper else interval.scale_range[1]
             above = min(high * (1.0 + distance), 0.5 * (high + last))
             cells += [(structure, pulse.scaled(f)) for f in (low * (1.0 - distance), above)]
         fell = [end.overturned for end in plain.judge_pulses(cells)]
-        for at, below, beyond in zip(left, fell[::2], fell[1::2], strict=True):
+        for case, below, beyond in zip(left, fell[::2], fell[1::2], strict=True):
             if beyond and not below:
-                low, high = minima[at][2].bracket
-                errors[at] = distance * high + high - low
-    for at, (structure, pulse, _) in enumerate(minima):
-        check(at in errors, f"the plain solver does not find the minimum of {structure}, {pulse}")
-    return [errors[at] for at in range(len(minima))]
+                low, high = minima[case][2].bracket
+                errors[case] = distance * high + high - low
+    for error, (structure, pulse, _) in zip(errors, minima, strict=True):
+        message = f"the plain solver does not find the minimum of {structure}, {pulse}"
+        check(not math.isnan(error), message)
+    return errors
 
 
 def of_one_period(column: Column, settings: dict) -> list[dict]:
@@ -127,8 +127,8 @@ def of_one_period(column: Column, settings: dict) -> list[dict]:
     rows, minima, highest = [], [], settings["highest"] * column.uplift_acceleration
     spec, gamma = settings["portal"], settings["picture"]["mass_ratio"]
     portal = MonolithicPortal(column, gamma, spec["span"], spec["depth"])
-    each = [*rivals(column, settings["mass_ratios"]), (PORTAL, gamma, portal)]
-    for (name, gamma, structure), shape in product(each, settings["shapes"]):
+    structures = [*rivals(column, settings["mass_ratios"]), (PORTAL, gamma, portal)]
+    for (name, gamma, structure), shape in product(structures, settings["shapes"]):
         block = structure.block()
         pulse = Pulse(shape, 1.0, period=settings["period"])
         interval = lowest(structure, pulse, highest, settings["floor"])
@@ -168,7 +168,7 @@ def over_frequency(column: Column, settings: dict) -> list[dict]:
         for shape, ratio, *_, structure in cases
     ]
     intervals = lowest_by_two_floors(pairs, highest, settings)
-    alone = math.inf
+    column_minimum = math.inf
     for case, (structure, pulse), interval in zip(cases, pairs, intervals, strict=True):
         shape, ratio, name, gamma, _ = case
         minimum = wide = math.inf
@@ -177,24 +177,24 @@ def over_frequency(column: Column, settings: dict) -> list[dict]:
             width, minimum = settings["wide"] / floor * step, interval.factor
             wide = lowest_wide(structure, pulse, minimum, highest, step, width)
             sample.append((structure, pulse, interval))
-        alone = minimum if name == COLUMN else alone
+        column_minimum = minimum if name == COLUMN else column_minimum
         rows.append(
             {"motion": shape, "frequency_ratio": ratio, "structure": name}
             | {"mass_ratio": gamma, "minimum": minimum, "wide_minimum": wide}
         )
-        if is_exception(name, minimum, alone):
-            later, earlier = (column, minimum) if name == FRAME else (structure, alone)
-            exceptions.append((later, pulse.scaled(earlier)))
+        if is_exception(name, minimum, column_minimum):
+            stronger, lower = (column, minimum) if name == FRAME else (structure, column_minimum)
+            exceptions.append((stronger, pulse.scaled(lower)))
     for exception, end in zip(exceptions, plain.judge_pulses(exceptions), strict=True):
         check(not end.overturned, f"by the plain solver it overturns: {exception}")
     chosen = np.random.default_rng(SEED).permutation(len(sample))[: settings["sample"]]
-    errors_of([sample[place] for place in chosen])
+    errors_of([sample[number] for number in chosen])
     return rows
 
 
-def is_exception(structure: str, minimum: float, alone: float) -> bool:
-    """Whether a fixed mass overturns later than the column, or a frame earlier."""
-    return {COLUMN: False, FIXED: minimum > alone, FRAME: minimum < alone}[structure]
+def is_exception(structure: str, minimum: float, column_minimum: float) -> bool:
+    """Return whether a fixed mass has a higher minimum than the column, or a frame a lower one."""
+    return minimum > column_minimum if structure == FIXED else minimum < column_minimum
 
 
 def rotations(structure: Structure, pulse: Pulse, cap: dict[str, float]) -> tuple[str, list[float]]:
@@ -218,40 +218,35 @@ def rotations(structure: Structure, pulse: Pulse, cap: dict[str, float]) -> tupl
 def poses(column: Column, settings: dict) -> Iterator[dict]:
     """Yield a row for each corner of each body of each pose."""
     picture = settings["picture"]
-    shown = structures(column, picture["mass_ratio"], picture["cap"])
-    for amplitude, (name, structure) in product(picture["amplitudes"], shown.items()):
+    gamma, cap = picture["mass_ratio"], picture["cap"]
+    shown = structures(column, gamma, cap).items()
+    for amplitude, (name, structure) in product(picture["amplitudes"], shown):
         pulse = Pulse("one-cosine", amplitude, period=settings["period"])
-        outcome, angles = rotations(structure, pulse, picture["cap"])
+        outcome, angles = rotations(structure, pulse, cap)
         for pose, rotation in enumerate(angles):
-            labels = {
-                "amplitude": amplitude,
-                "mass_ratio": picture["mass_ratio"],
-                "structure": name,
-            }
+            labels = {"amplitude": amplitude, "mass_ratio": gamma, "structure": name}
             labels |= {"outcome": outcome, "pose": pose, "last": pose == len(angles) - 1}
-            for body, outline in bodies(structure, rotation, picture["cap"]).items():
+            for body, outline in bodies(structure, rotation, cap).items():
                 for x, y in outline:
                     yield labels | {"body": body, "x": x, "y": y}
 
 
 def compute(settings: dict, column: dict) -> dict[str, Any]:
     """Return minima under the pulses of one period and over their frequency, and the poses."""
-    alone = Column(**column)
+    solitary = Column(**column)
     return {
-        "vase": of_one_period(alone, settings),
-        "motions": over_frequency(alone, settings),
-        "poses": [*poses(alone, settings)],
+        "vase": of_one_period(solitary, settings),
+        "motions": over_frequency(solitary, settings),
+        "poses": [*poses(solitary, settings)],
     }
 
 
 def compared(vase_motions: pd.DataFrame) -> pd.DataFrame:
     """Return each fixed mass and frame beside the column, where one of the two overturns."""
-    at = ["motion", "frequency_ratio"]
-    is_column = vase_motions.structure == COLUMN
-    alone = vase_motions[is_column].drop_duplicates(at).set_index(at)
-    table = vase_motions[~is_column].join(
-        alone[["minimum", "wide_minimum"]].add_suffix("_column"), at
-    )
+    pulse, is_column = ["motion", "frequency_ratio"], vase_motions.structure == COLUMN
+    columns = vase_motions[is_column].drop_duplicates(pulse).set_index(pulse)
+    minima = columns[["minimum", "wide_minimum"]].add_suffix("_column")
+    table = vase_motions[~is_column].join(minima, pulse)
     table = table[np.isfinite(table[["minimum", "minimum_column"]].min(axis=1))]
     for name in ("minimum", "wide_minimum"):
         ranks = zip(table.structure, table[name], table[f"{name}_column"], strict=True)
@@ -282,7 +277,7 @@ def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> 
     quoted = vase[vase["shape"] == "one-cosine"].set_index(["structure", "mass_ratio"])
     gamma = settings["picture"]["mass_ratio"]
     wider = [under[PORTAL, gamma, s] > under[FRAME, gamma, s] for s in settings["shapes"]]
-    at = {
+    cases = {
         "minimum_of_the_column": (COLUMN, 0.0),
         "minimum_at_mass_ratio_one": (FRAME, 1.0),
         "minimum_of_the_heaviest": (FRAME, math.inf),
@@ -302,9 +297,9 @@ def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> 
         "least_raise": value(min(raised), 1e-6),
         "largest_raise": value(max(raised), 1e-6),
     } | {
-        name: value(*quoted.loc[one, ["minimum_overturning", "error"]], "g")
-        for name, one in at.items()
-        if one in quoted.index
+        name: value(*quoted.loc[case, ["minimum_overturning", "error"]], "g")
+        for name, case in cases.items()
+        if case in quoted.index
     }
 
 

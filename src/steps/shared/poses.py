@@ -8,7 +8,7 @@ from topheavy import Column, FixedMassColumn, RockingFrame
 from topheavy.bodies.kinematics import outlines
 from topheavy.bodies.structures import Structure
 
-IN_THE_GROUND = 1e-9  # m: how far a body may be
+IN_THE_GROUND = 1e-9  # largest depth of a body below the ground, m
 
 
 def structures(column: Column, gamma: float, cap: dict[str, float]) -> dict[str, Structure]:
