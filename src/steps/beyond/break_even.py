@@ -26,7 +26,7 @@ from topheavy import Column
 from topheavy.risk.resampling import Ensemble
 
 WITHIN = "impulses within the contacts"
-FINE = 0.5  # of the interval of an end: how far twice the step of the reductions may move it
+FINE = 0.5  # shift of an end by twice the step of the reductions, times the width of its interval
 
 
 def compute(settings, motions, structures, shards):
@@ -34,8 +34,8 @@ def compute(settings, motions, structures, shards):
     shares, ends, benefits, samples = reductions(settings), [], [], {}
     level = settings["velocities"].index(motions["velocity"])
     for number, name in enumerate(FAMILIES):
-        quakes = [each for each in sets(motions) if each.startswith(name)]
-        parts = [outcomes(shards, f"{each}: lowered") == 1 for each in quakes]
+        quakes = [quake for quake in sets(motions) if quake.startswith(name)]
+        parts = [outcomes(shards, f"{quake}: lowered") == 1 for quake in quakes]
         samples[quakes[0]] = parts[0]
         fell, groups = np.concatenate(parts), np.repeat(quakes, [len(part) for part in parts])
         spec = settings["bootstrap"] | {"seed": settings["bootstrap"]["seed"] + number}
@@ -43,17 +43,18 @@ def compute(settings, motions, structures, shards):
         means = ensemble.means()
         for place, velocity in enumerate(settings["velocities"]):
             less = means[:, : shares.size, place] - means[:, [shares.size], place]
-            every = np.array([end_of(shares, one) for one in less])
-            low, high = bounds(every, spec["confidence"])
+            end, *resampled = (end_of(shares, benefit) for benefit in less)
+            tail = (1.0 - spec["confidence"]) / 2.0
+            low, high = np.quantile(resampled, (tail, 1.0 - tail), method="nearest")
             coarse = end_of(shares[::2], less[0, ::2])
             check(
-                coarse == every[0] or abs(coarse - every[0]) <= FINE * (high - low),
-                f"twice the step moves the end from {every[0]:g} to {coarse:g} at {velocity:g} m/s",
+                coarse == end or abs(coarse - end) <= FINE * (high - low),
+                f"twice the step moves the end from {end:g} to {coarse:g} at {velocity:g} m/s",
             )
             ends.append(
                 {"set": name, "velocity": velocity, "motions": len(fell)}
                 | {"column": means[0, 0, place], "frame": means[0, shares.size, place]}
-                | {"end": every[0], "end_low": low, "end_high": high}
+                | {"end": end, "end_low": low, "end_high": high}
             )
         benefits += compare(name, settings, ensemble, means[..., level])
     check_sample(sampled(samples, settings, motions, column))
@@ -79,35 +80,24 @@ def end_of(shares, benefits):
     return float(centres[before] + step * values[before])
 
 
-def bounds(ends, confidence):
-    """Return the interval of an end, of that of all motions and those of its resamples."""
-    tail = (1.0 - confidence) / 2.0
-    return np.quantile(ends[1:], (tail, 1.0 - tail), method="nearest")
-
-
 def compare(name, settings, ensemble, means):
-    """Return the benefit at the stated velocity, if √r of both or of the column alone is lower.
+    """Yield the benefit at the stated velocity, if √r of both or of the column alone is lower.
 
     The last row is that of impulses within the contacts.
     """
-    shares, rows = list(reductions(settings)), []
-    first = len(shares)
+    shares, within = list(reductions(settings)), means.shape[1] - 2
+    first, cases = len(shares), []  # what is lowered, by how much; places of column and frame
     for number, share in enumerate([0.0, *settings["lowered"]]):
-        column = shares.index(share)
-        for way, frame in {"both": first + number, "column alone": first}.items():
-            if share or way == "both":
-                rows.append(row(name, way, share, ensemble, means[:, column], means[:, frame]))
-    within = means.shape[1] - 2
-    rows.append(row(name, WITHIN, 0.0, ensemble, means[:, within], means[:, within + 1]))
-    return rows
-
-
-def row(name, way, share, ensemble, column, frame):
-    return {"set": name, "lowered": way, "reduction": share} | {
-        "column": column[0],
-        "frame": frame[0],
-        **ensemble.bounds("benefit", column - frame),
-    }
+        cases.append(("both", share, shares.index(share), first + number))
+        if share:
+            cases.append(("column alone", share, shares.index(share), first))
+    for lowered, share, *places in [*cases, (WITHIN, 0.0, within, within + 1)]:
+        column, frame = means[:, places].T
+        yield (
+            {"set": name, "lowered": lowered, "reduction": share}
+            | {"column": column[0], "frame": frame[0]}
+            | ensemble.bounds("benefit", column - frame)
+        )
 
 
 def sampled(samples, settings, motions, column):
@@ -115,22 +105,22 @@ def sampled(samples, settings, motions, column):
     random = np.random.default_rng(settings["bootstrap"]["seed"])
     question, motions_of = restitution_question(motions, settings, column), models(motions)
     for name, fell in samples.items():
-        at = int(random.integers(len(fell)))
-        record = motions_of[name][at].record()
+        number = int(random.integers(len(fell)))
+        record = motions_of[name][number].record()
         for _ in range(settings["sample"]):
-            place, level = (int(random.integers(size)) for size in fell[at].shape)
+            place, level = (int(random.integers(size)) for size in fell[number].shape)
             block, factor = question.blocks[place], question.factors(record)[level]
             if random.integers(2):
                 factor = beside_a_boundary(partial(overturns, block, record, None), factor)
-            yield block, record, None, factor, fell[at, place, level]
+            yield block, record, None, factor, fell[number, place, level]
 
 
 def findings(break_even, break_even_benefit, settings):
     """Return where the benefit ends, and its size as √r of Eq. (25) and as measured say."""
     ends, benefits = break_even, break_even_benefit
-    both = benefits[benefits.lowered == "both"]
+    lowered = benefits[benefits.lowered == "both"]
     known = ends[np.isfinite(ends.end)]
-    found = {
+    results = {
         "benefit_ends": truth(
             len(known) == len(ends),
             least=known.end.min(),
@@ -138,7 +128,7 @@ def findings(break_even, break_even_benefit, settings):
             low=ends.end_low.min(),
             high=ends.end_high.max(),
         ),
-        "frame_is_safer": truth((both.benefit_low > 0.0).all()),
+        "frame_is_safer": truth((lowered.benefit_low > 0.0).all()),
     }
     measured = settings["measured"][-1]
     for name, way, share in (
@@ -148,12 +138,12 @@ def findings(break_even, break_even_benefit, settings):
         ("within", WITHIN, 0.0),
     ):
         rows = benefits[(benefits.lowered == way) & (benefits.reduction == share)]
-        for one in rows.itertuples():
-            low, high = one.benefit_low, one.benefit_high
-            found[f"{name}_{one.set.replace('-', '_')}"] = value(
-                one.benefit, (high - low) / 2.0, low=low, high=high
+        for row in rows.itertuples():
+            low, high = row.benefit_low, row.benefit_high
+            results[f"{name}_{row.set.replace('-', '_')}"] = value(
+                row.benefit, (high - low) / 2.0, low=low, high=high
             )
-    return found
+    return results
 
 
 if __name__ == "__main__":

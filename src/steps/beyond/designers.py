@@ -17,7 +17,7 @@ def compute(
 ):
     column = Column(**structures[settings["structure"]])
     cap = Cap(friction["bays"][0], friction["depth"] / 2.0)
-    friction_of = friction_by_mass.set_index(["bay", "mass_ratio"]).required
+    required = friction_by_mass.set_index(["bay", "mass_ratio"]).required
     near = motions_rotations[motions_rotations.velocity.isin(settings["velocities"])]
     peaks = near.pivot(index=["model", "velocity"], columns="mass_ratio", values="median_peak")
     peaks = peaks[(peaks < 1.0).all(axis=1)]
@@ -30,10 +30,10 @@ def compute(
         row = {"mass_ratio": gamma, "uplift_acceleration": frame.uplift_acceleration}
         row |= {"size_ratio": size, "velocity_scale": math.sqrt(size) - 1.0}
         row |= {"gain_least": gains.min(), "gain_most": gains.max()}
-        turned = motions_rotations[motions_rotations.mass_ratio == gamma]
+        rotations = motions_rotations[motions_rotations.mass_ratio == gamma]
         for velocity in settings["velocities"]:
-            at = turned[turned.velocity == velocity]
-            ends = {"low": at.median_peak_low.min(), "high": at.median_peak_high.max()}
+            models = rotations[rotations.velocity == velocity]
+            ends = {"low": models.median_peak_low.min(), "high": models.median_peak_high.max()}
             for name, peak in ends.items():
                 moved = travel(column, peak * column.slenderness)
                 row[f"{name}_{velocity:g}"] = moved / (2.0 * column.half_width)
@@ -43,9 +43,8 @@ def compute(
         row["base_shear_largest"] = uplift.base_shear[uplift.mass_ratio == gamma].max()
         row["depth_over_width"] = centre_height(frame, cap) / column.half_height
         for bay in friction["bays"]:
-            limit = frame.uplift_acceleration if math.isinf(gamma) else None
-            at = (bay if gamma else 0.0, gamma)
-            row[f"friction_{bay:g}"] = limit or friction_of[at]
+            case, limit = (bay if gamma else 0.0, gamma), frame.uplift_acceleration
+            row[f"friction_{bay:g}"] = limit if math.isinf(gamma) else required[case]
         rows.append(row)
     return rows
 

@@ -15,10 +15,10 @@ from steps.beyond.stones import Stones
 from steps.shared.cases import HIGHEST, cap_of, lowest, pulse_on
 from topheavy import Column, FixedMassColumn, RockingFrame, judge, simulate
 
-RESTITUTION, FREQUENCY = 1e-3, 3e-4  # relative, of √r and p̂: agreement of pymunk with theory
-FAR = 0.03  # relative: an amplitude so far from the minimum is not near it
-BELOW = 0.2  # steps below a known minimum: from where the first amplitude that overturns is sought
-IN_PLANE, ACROSS = 0.0, 90.0  # degrees
+RESTITUTION, FREQUENCY = 1e-3, 3e-4  # relative differences of √r and p̂ between pymunk and theory
+FAR = 0.03  # relative distance from the minimum beyond which an amplitude is not near it
+BELOW = 0.2  # steps below a known minimum at which the search for it in the engine starts
+IN_PLANE, ACROSS = 0.0, 90.0  # directions of the ground motion, degrees
 COLUMN, FIXED, IN_LINE, SLAB = "column", "fixed mass", "two in line", "2 × 2"
 LABELS = "structure", "direction", "section", "depth_over_width", "mass_ratio", "frequency_ratio"
 
@@ -32,19 +32,6 @@ def compute(settings, structures):
     }
 
 
-def frames_of(entries, settings, structures):
-    """Yield structure, frame and cap beam of each mass ratio of entries, and the entry."""
-    for entry in entries:
-        name, column = entry["structure"], Column(**structures[entry["structure"]])
-        for gamma in entry["mass_ratios"]:
-            yield name, RockingFrame(column, gamma), cap_of(settings["caps"][name]), entry
-
-
-def in_the_plane(frame, cap, spec):
-    """Return a column or a frame for pymunk."""
-    return Stones(frame.column, frame.mass_ratio, cap, spec["time_step"], friction=spec["friction"])
-
-
 def planar(frame, cap, spec):
     """Return a column or a frame in its plane for MuJoCo, as deep as a column is wide."""
     column, in_row = frame.column, 2 if frame.mass_ratio else 1
@@ -52,112 +39,119 @@ def planar(frame, cap, spec):
     return Bodies(column, column.half_width, frame.mass_ratio, cap, spec["time_step"], **shape)
 
 
-def is_for_mujoco(name, frame, settings):
+def planar_frames(settings, spec, structures, version):
+    """Yield for each γ of each entry the entry, its labels, the frame, and its engines.
+
+    An engine is a module, the frame in it, and its time step (s), by the name of the solver.
+    """
     chosen = settings["mujoco"]
-    return (name, frame.mass_ratio) == (chosen["structure"], chosen["mass_ratio"])
+    for entry in spec["frames"]:
+        name, column = entry["structure"], Column(**structures[entry["structure"]])
+        cap = cap_of(settings["caps"][name])
+        for gamma in entry["mass_ratios"]:
+            rig = Stones(column, gamma, cap, spec["time_step"], friction=spec["friction"])
+            engines = {stones.VERSION: (stones, rig, rig.time_step)}
+            frame = RockingFrame(column, gamma)
+            if (name, gamma) == (chosen["structure"], chosen["mass_ratio"]):
+                bodies = planar(frame, cap, chosen)
+                engines[version] = rigid_bodies, bodies, bodies.seconds
+            yield entry, {"structure": name, "mass_ratio": gamma}, frame, engines
 
 
 def restitution(settings, structures, version):
     """Yield p̂ and √r of each impact in free rocking, in engine and theory, Eqs. (23) and (25)."""
     spec = settings["restitution"]
-    for name, frame, cap, entry in frames_of(spec["frames"], settings, structures):
-        rotation, column = spec["lean"] * frame.slenderness, frame.column
-        *impacts, last = simulate(frame, rotation=rotation, samples=2).impact_times[
-            : entry["impacts"] + 1
-        ]
-        bodies = in_the_plane(frame, cap, spec)
-        histories = {stones.VERSION: (bodies.time_step, stones.released(bodies, rotation, last))}
-        if is_for_mujoco(name, frame, settings):
-            bodies = planar(frame, cap, settings["mujoco"])
-            rotations = rigid_bodies.released(bodies, rotation, last)
-            histories[version] = bodies.seconds, rotations
-        for solver, (time_step, rotations) in histories.items():
-            time, roots = free_rocking(rotations, time_step, column)
-            for impact, root in enumerate(roots[: len(impacts)], 1):
-                yield {
-                    "solver": solver,
-                    "structure": name,
-                    "mass_ratio": frame.mass_ratio,
-                    "impact": impact,
-                    "time_step": time_step,
-                    "frequency_parameter_over_theory": impacts[0] / time,
-                    "engine": root,
-                    "theory": frame.restitution,
-                }
+    for entry, labels, frame, engines in planar_frames(settings, spec, structures, version):
+        rotation, count = spec["lean"] * frame.slenderness, entry["impacts"]
+        impacts = simulate(frame, rotation=rotation, samples=2).impact_times
+        for solver, (engine, rig, time_step) in engines.items():
+            rotations = engine.released(rig, rotation, impacts[count])
+            time, roots = free_rocking(rotations, time_step, frame.column)
+            for impact, root in enumerate(roots[:count], 1):
+                yield (
+                    {"solver": solver}
+                    | labels
+                    | {
+                        "impact": impact,
+                        "time_step": time_step,
+                        "frequency_parameter_over_theory": impacts[0] / time,
+                        "engine": root,
+                        "theory": frame.restitution,
+                    }
+                )
 
 
 def outcomes(settings, structures, version):
     """Yield the outcomes in engine and theory near the minimum overturning acceleration."""
     spec = settings["outcomes"]
-    for name, frame, cap, _ in frames_of(spec["frames"], settings, structures):
-        bodies = in_the_plane(frame, cap, spec)
-        for place, kind in enumerate(spec["pulses"]):
-            engines = {stones.VERSION: (stones.overturns, bodies)}
-            if place == 0 and is_for_mujoco(name, frame, settings):
-                engines[version] = overturns, planar(frame, cap, settings["mujoco"])
+    for _, labels, frame, engines in planar_frames(settings, spec, structures, version):
+        for kind in spec["pulses"]:
             pulse = minimum(frame, kind)
-            for solver, (overturn, bodies_of_it) in engines.items():
-                for factor in spec["factors"]:
-                    yield {
-                        "solver": solver,
-                        "structure": name,
-                        "mass_ratio": frame.mass_ratio,
-                        **kind,
+            for (solver, (engine, rig, _)), factor in product(engines.items(), spec["factors"]):
+                yield (
+                    {"solver": solver}
+                    | labels
+                    | kind
+                    | {
                         "factor": factor,
-                        "engine": overturn(bodies_of_it, pulse.scaled(factor)),
+                        "engine": engine.overturns(rig, pulse.scaled(factor)),
                         "theory": judge(frame, pulse.scaled(factor)).overturned,
                     }
+                )
+            engines.pop(version, None)  # under the first pulse only
 
 
 def minimum(frame, kind, column=None):
-    """Return the pulse of the minimum in theory; ω is over p of its own or of a given column."""
+    """Return the pulse of the minimum in theory; ω is over p of the frame's or a given column."""
     pulse = pulse_on(column or frame.column, **kind)
     return replace(pulse, amplitude=lowest(frame, pulse).factor)
 
 
 def across(settings, structures):
-    """Return the first amplitudes that overturn in the plane and across it.
+    """Return the lowest amplitude that overturns each structure, in its plane and across it.
 
-    They are over the minimum of the square column in theory, as are the uplift acceleration by hand
-    and the minimum in theory, which is not known for round columns and oblique directions. There
-    they are sought from just below the column's own in the same direction, if it is known.
+    All accelerations are normalised by the theoretical minimum of the square column. `uplift` is
+    computed by hand and `theory` by the equation of rocking; round columns and oblique directions
+    have no theory (NaN). There the search starts just below the amplitude that overturns the single
+    column in the same direction, if that was computed.
     """
-    spec, free = settings["across"], [(IN_LINE, IN_PLANE), (IN_LINE, ACROSS), (SLAB, IN_PLANE)]
-    frequency, (light, *_, heavy) = spec["frequency_ratios"][0], spec["mass_ratios"]
-    square = [(COLUMN, IN_PLANE, "square", 1.0, 0.0, ratio) for ratio in spec["frequency_ratios"]]
+    spec, frames = settings["across"], [(IN_LINE, IN_PLANE), (IN_LINE, ACROSS), (SLAB, IN_PLANE)]
+    gammas, ratios = spec["mass_ratios"], spec["frequency_ratios"]
+    ratio, (light, *_, heavy) = ratios[0], gammas
+    square = [(COLUMN, IN_PLANE, "square", 1.0, 0.0, ratio) for ratio in ratios]
     square += [
-        (*one, "square", 1.0, gamma, ratio)
-        for ratio, gamma in product(spec["frequency_ratios"], spec["mass_ratios"])
-        for one in ((FIXED, IN_PLANE), *free)
+        (*structure, "square", 1.0, gamma, ratio)
+        for ratio, gamma, structure in product(ratios, gammas, [(FIXED, IN_PLANE), *frames])
     ]
-    deep = [
-        (IN_LINE, ACROSS, "square", depth, gamma, frequency)
-        for gamma, depth in product(spec["mass_ratios"], spec["depths"])
+    rows = square + [
+        (IN_LINE, ACROSS, "square", depth, gamma, ratio)
+        for gamma, depth in product(gammas, spec["depths"])
     ]
-    oblique = [
-        (name, direction, "square", 1.0, gamma, frequency)
-        for direction in spec["oblique"]
-        for name, gamma in ((COLUMN, 0.0), *((SLAB, gamma) for gamma in spec["mass_ratios"]))
+    rows += [
+        (name, direction, "square", 1.0, gamma, ratio)
+        for direction, (name, gamma) in product(
+            spec["oblique"], [(COLUMN, 0.0), *product([SLAB], gammas)]
+        )
     ]
-    cases = [(row, {}) for row in square + deep + oblique]
-    cases += [((*one, "round", 1.0, light, frequency), {}) for one in free]
-    again = [row for row in square if row[4:] == (heavy, frequency)]
-    cases += product(again, spec["checks"])
-    rows, of_column = [], {}
-    for row, changed in cases:
-        rows.append(first(row, changed, of_column.get(row[1], 0.0), settings, structures))
+    rows += [(*frame, "round", 1.0, light, ratio) for frame in frames]
+    cases = [*product(rows, [{}])]
+    cases += product([row for row in square if row[4:] == (heavy, ratio)], spec["checks"])
+    table, of_column = [], {}
+    for row, solver in cases:
+        table.append(overturning(row, solver, of_column.get(row[1], 0.0), settings, structures))
         if row[0] == COLUMN:
-            of_column[row[1]] = rows[-1]["engine"]
-    return pd.DataFrame(rows)
+            of_column[row[1]] = table[-1]["engine"]
+    return pd.DataFrame(table)
 
 
-def first(row, changed, of_column, settings, structures):
+def overturning(row, changed, of_column, settings, structures):
+    """Return a row of the table with the lowest amplitude that overturns in the engine."""
     spec, (name, direction, section, depth, gamma, ratio) = settings["across"], row
     column = Column(**structures[spec["structure"]])
     cap = cap_of(settings["caps"][spec["structure"]])
     side = Column(depth * column.half_width, column.half_height)
     kind = {"shape": spec["shape"], "frequency_ratio": ratio}
-    alone, theory = minimum(column, kind, column), RockingFrame(column, gamma)
+    pulse, theory = minimum(column, kind, column), RockingFrame(column, gamma)
     if name == FIXED or direction == ACROSS:
         theory = FixedMassColumn(side, gamma, 2.0 * side.half_width, 2.0 * cap.half_depth)
     solver = {"time_step": spec["time_step"], "friction": spec["friction"]} | changed
@@ -172,24 +166,24 @@ def first(row, changed, of_column, settings, structures):
         is_fixed=name == FIXED,
         **solver,
     )
-    uplift, step = theory.uplift_acceleration / alone.amplitude, spec["step"]
+    uplift, step = theory.uplift_acceleration / pulse.amplitude, spec["step"]
     expected = math.nan
     if section == "square" and direction in (IN_PLANE, ACROSS):
-        expected = minimum(theory, kind, column).amplitude / alone.amplitude
+        expected = minimum(theory, kind, column).amplitude / pulse.amplitude
     begin = max(uplift, np.nan_to_num(expected, nan=of_column) - BELOW * step)
     factors = step * np.arange(math.floor(begin / step), math.ceil(HIGHEST / step))
-    lowest = next(f for f in factors if overturns(bodies, alone.scaled(f), direction))
-    message = f"{row}, {changed}: from {lowest:.2f} on; expected {expected:.3f} within a step"
-    check(lowest > factors[0] and not abs(lowest - expected) > 1.5 * step, message)
-    numbers = {"uplift": uplift, "theory": expected, "engine": lowest}
+    factor = next(f for f in factors if overturns(bodies, pulse.scaled(f), direction))
+    message = f"{row}, {changed}: from {factor:.2f} on; expected {expected:.3f} within a step"
+    check(factor > factors[0] and not abs(factor - expected) > 1.5 * step, message)
+    numbers = {"uplift": uplift, "theory": expected, "engine": factor}
     return dict(zip(LABELS, row, strict=True)) | solver | numbers
 
 
 def findings(engine_restitution, engine_outcomes, engine_across):
-    planar = engine_restitution[engine_restitution.solver == stones.VERSION]
+    pymunk = engine_restitution[engine_restitution.solver == stones.VERSION]
     roots = (engine_restitution.engine / engine_restitution.theory - 1.0).abs()
-    frequency = (planar.frequency_parameter_over_theory - 1.0).abs().max()
-    loss = roots[planar.index].max()
+    frequency = (pymunk.frequency_parameter_over_theory - 1.0).abs().max()
+    loss = roots[pymunk.index].max()
     message = f"pymunk: p̂ is {frequency:.1e} from Eq. (23), √r {loss:.1e} from Eq. (25)"
     check(frequency < FREQUENCY and loss < RESTITUTION, message)
     agrees = engine_outcomes.engine == engine_outcomes.theory
@@ -197,17 +191,18 @@ def findings(engine_restitution, engine_outcomes, engine_across):
     square = engine_across[engine_across.depth_over_width == 1.0]
     is_oblique = ~square.direction.isin([IN_PLANE, ACROSS])
     table, slab = square[~is_oblique], square[is_oblique & (square.structure == SLAB)]
+    slabs = table[table.structure == SLAB]
     oblique = square[is_oblique & (square.structure == COLUMN)].set_index("direction").engine
     margin = slab.engine / slab.direction.map(oblique)
-    alone = table[table.structure == COLUMN].set_index("frequency_ratio").engine
-    gain = table.engine - table.frequency_ratio.map(alone)
+    columns = table[table.structure == COLUMN].set_index("frequency_ratio").engine
+    gain = table.engine - table.frequency_ratio.map(columns)
     deep = engine_across[(engine_across.section == "square") & (engine_across.direction == ACROSS)]
-    enough = deep[deep.engine >= deep.frequency_ratio.map(alone)].groupby("mass_ratio")
+    enough = deep[deep.engine >= deep.frequency_ratio.map(columns)].groupby("mass_ratio")
     weaker = table.direction == ACROSS
     stronger = table.structure.isin([IN_LINE, SLAB]) & ~weaker
     return {
         "free_rocking": truth(
-            True, frequency=frequency, restitution=loss, mujoco=roots.drop(planar.index).max()
+            True, frequency=frequency, restitution=loss, mujoco=roots.drop(pymunk.index).max()
         ),
         "same_verdicts": truth(
             agrees.all(),
@@ -220,10 +215,10 @@ def findings(engine_restitution, engine_outcomes, engine_across):
             gain[weaker].max() < 0.0 < min(gain[stronger].min(), margin.min() - 1.0),
             lowest=table.engine[weaker].min(),
             highest=table.engine[weaker].max(),
-            lowest_of_slab=table.engine[table.structure == SLAB].min(),
-            highest_of_slab=table.engine[table.structure == SLAB].max(),
-            lowest_of_slab_in_theory=table.theory[table.structure == SLAB].min(),
-            highest_of_slab_in_theory=table.theory[table.structure == SLAB].max(),
+            lowest_of_slab=slabs.engine.min(),
+            highest_of_slab=slabs.engine.max(),
+            lowest_of_slab_in_theory=slabs.theory.min(),
+            highest_of_slab_in_theory=slabs.theory.max(),
             least_oblique=margin.min(),
             most_oblique=margin.max(),
             enough_depths=enough.depth_over_width.min().to_list(),

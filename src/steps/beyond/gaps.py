@@ -1,39 +1,39 @@
 """The trilith on contacts with gaps at the corners, shaken below its uplift acceleration."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pandas as pd
 
 from replication.step import check, run, truth
 from steps.beyond.rigid_bodies import Bodies, checked_version, motion
-from topheavy import STANDARD_GRAVITY, Cap, Column
+from steps.shared.cases import cap_of
+from topheavy import STANDARD_GRAVITY, Column
 
-ROTATIONS = {"in_plane": (0, 2), "yaw": (1, 0)}  # sines, in the matrix
+ROTATIONS = {"in_plane": (0, 2), "yaw": (1, 0)}  # places of their sines in a rotation matrix
 
 
 def compute(settings, structures, trilith):
     """Return the largest rotations of a column (degrees) in the last two thirds of each draw."""
     column, rows, version = Column(**structures["trilith"]), [], checked_version()
-    cap = Cap(settings["cap"]["span"], 0.5 * settings["cap"]["depth"])
-    omega = 2.0 * math.pi * trilith["table_frequency"]
+    cap, omega = cap_of(settings["cap"]), 2.0 * math.pi * trilith["table_frequency"]
     peak = trilith["table_amplitude"] * omega**2 / STANDARD_GRAVITY
 
     def ground(time):
         return peak * np.minimum(time / settings["ramp"], 1.0) * np.sin(omega * time)
 
-    cases = [(depth, gap, {}) for depth in settings["depths"] for gap in settings["gaps"]]
+    cases = [*product(settings["depths"], settings["gaps"], [{}])]
     cases += [(*cases[-1][:2], changed) for changed in settings["checks"]]
     for depth, gap, changed in cases:
         solver = {name: settings[name] for name in ("time_step", "friction")} | changed
         for draw in range(settings["draws"] if gap else 1):
-            back = np.random.default_rng([settings["seed"], draw]).uniform(0, 1e-3 * gap, (2, 4, 2))
-            bodies = Bodies(column, 0.5 * depth, trilith["mass_ratio"], cap, gaps=back, **solver)
-            turned = np.array(
-                [turned for _, turned in motion(bodies, ground, settings["duration"])]
-            )
-            late = np.abs(turned[len(turned) // 3 :]).max(axis=(0, 1))
-            largest = {name: math.degrees(math.asin(late[at])) for name, at in ROTATIONS.items()}
+            random = np.random.default_rng([settings["seed"], draw])
+            gaps = random.uniform(0, 1e-3 * gap, (2, 4, 2))
+            bodies = Bodies(column, 0.5 * depth, trilith["mass_ratio"], cap, gaps=gaps, **solver)
+            looks = [turned for _, turned in motion(bodies, ground, settings["duration"])]
+            late = np.abs(looks[len(looks) // 3 :]).max(axis=(0, 1))
+            largest = {n: math.degrees(math.asin(late[place])) for n, place in ROTATIONS.items()}
             rows.append({"depth": depth, "gap_mm": gap, **solver, "draw": draw} | largest)
     return pd.DataFrame(rows).assign(solver=version)
 

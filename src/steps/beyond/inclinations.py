@@ -1,4 +1,4 @@
-"""What the inclinations of columns in a rigid-body engine say: outcomes, free rocking."""
+"""Outcomes and free rocking by the inclinations of columns in a rigid-body engine."""
 
 import math
 from collections.abc import Iterable
@@ -7,10 +7,10 @@ import numpy as np
 
 from topheavy import Column, Pulse
 
-OVERTURNED = math.pi / 3  # rad, from where no pulse brings a column back; the cap is still aloft
-WAIT, REST = 14.0, 0.5  # over p: the longest wait for an outcome, and how long rest has to last
-UPRIGHT = 0.05  # inclination normalised by α
-SMALLEST_PEAK = 0.02  # of a bounce whose loss counts, normalised by α
+OVERTURNED = math.pi / 3  # inclination from which no pulse brings a column back, rad
+WAIT, REST = 14.0, 0.5  # longest wait for an outcome, and shortest rest, times 1/p
+UPRIGHT = 0.05  # inclination up to which a column counts as upright, times α
+SMALLEST_PEAK = 0.02  # smallest peak of a bounce whose loss counts, times α
 
 
 def overturn(looks: Iterable[tuple[float, float]], column: Column, pulse: Pulse) -> bool:
@@ -19,7 +19,7 @@ def overturn(looks: Iterable[tuple[float, float]], column: Column, pulse: Pulse)
     Bodies survive that rest after the pulse, that return to upright twice without it, as each
     impact takes energy, and that still rock 14/p after it.
     """
-    p, returns, since = column.frequency_parameter, 0, None
+    p, returns, upright_since = column.frequency_parameter, 0, math.inf
     for time, inclination in looks:
         if inclination > OVERTURNED:
             return True
@@ -27,10 +27,10 @@ def overturn(looks: Iterable[tuple[float, float]], column: Column, pulse: Pulse)
             return False
         if time > pulse.duration:
             if inclination >= UPRIGHT * column.slenderness:
-                since = None
-            elif since is None:
-                returns, since = returns + 1, time
-            if returns > 1 or (since is not None and time - since > REST / p):
+                upright_since = math.inf
+            elif upright_since == math.inf:
+                returns, upright_since = returns + 1, time
+            if returns > 1 or time - upright_since > REST / p:
                 return False
     return False
 

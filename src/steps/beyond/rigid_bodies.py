@@ -24,10 +24,10 @@ from topheavy import STANDARD_GRAVITY, Cap, Column, Pulse
 
 PACKAGE, OLDEST = "mujoco-core", "4.0.1"
 IMPEDANCE = 0.95  # share of the force of the ideal contact (MuJoCo's `solimp`)
-FRICTION_IMPEDANCE = 10.0  # friction is so much harder than the normal force, against creep
-SPHERE = 0.02  # radius over the column's half width
+FRICTION_IMPEDANCE = 10.0  # hardness of friction, times that of the normal force, against creep
+SPHERE = 0.02  # radius of a sphere, times the column's half width
 ON_A_RIM = 16  # spheres around a round column; edges between them lie along and across the plane
-CONTACT = 4.0  # time steps in the time constant of a contact; MuJoCo softens it below 2
+CONTACT = 4.0  # time constant of a contact, in time steps; MuJoCo softens contacts below 2
 FREE_JOINT = "<freejoint/>"
 PLANAR_JOINTS = (
     '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
@@ -108,20 +108,16 @@ class Bodies:
     @property
     def axes(self) -> list[tuple[float, float]]:
         """Positions of the columns at rest, m."""
-        counts = self.in_row, self.rows
-        return [
-            *product(*([self.cap.span * (i - 0.5 * (n - 1)) for i in range(n)] for n in counts))
-        ]
-
-    @property
-    def scale(self) -> float:
-        """1/p of the column, s."""
-        return 1.0 / self.column.frequency_parameter
+        x, y = (
+            [self.cap.span * (i - 0.5 * (count - 1)) for i in range(count)]
+            for count in (self.in_row, self.rows)
+        )
+        return [*product(x, y)]
 
     @property
     def seconds(self) -> float:
         """The time step, s."""
-        return self.scale * self.time_step
+        return 1.0 / self.column.frequency_parameter * self.time_step
 
     def pose(self, rotation: float = 0.0) -> np.ndarray:
         """Return the planar engine's coordinates with columns rotated by θ and the cap level."""
@@ -147,17 +143,17 @@ class Bodies:
         for i, (x, y) in enumerate(self.axes):
             parts = f'<geom name="column{i}" type={section} mass="1" {quiet}/>'
             if self.is_planar:
-                pairs += [(f"column{i}", other) for other in ("ground", "cap")[: 1 + free_cap]]
+                pairs += [(f"column{i}", face) for face in ("ground", "cap")[: 1 + free_cap]]
             if self.is_fixed:
                 place = f'pos="0 0 {h + d}" size="{b} {self.half_depth} {d}"'
                 parts += f'<geom type="box" {place} mass="{self.mass_ratio}" {quiet}/>'
             for j, (along, across) in enumerate(self.contacts):
-                for end, other in ((-1, "ground"), (1, "cap"))[: 1 + free_cap]:
-                    name = f"{other}{i}_{j}"
+                for end, face in ((-1, "ground"), (1, "cap"))[: 1 + free_cap]:
+                    name = f"{face}{i}_{j}"
                     z = end * (h - radius - gaps[i, j, (end + 1) // 2])
                     place = f'size="{radius}" pos="{along} {across} {z}" mass="0"'
                     parts += f'<geom name="{name}" type="sphere" {place} {quiet}/>'
-                    pairs.append((other, name))
+                    pairs.append((face, name))
             place = "" if self.is_planar else f'pos="{x} {y} {h}"'
             bodies.append(f"<body {place}>{joint}{parts}</body>")
         if free_cap:
@@ -173,7 +169,7 @@ class Bodies:
             f'condim="3" friction="{self.friction} {self.friction} 0 0 0" solimp="{IMPEDANCE}'
             f' {IMPEDANCE} 0.001 0.5 1" solref="{CONTACT * self.seconds} 1"'
         )
-        contacts = "".join(f'<pair geom1="{one}" geom2="{two}" {contact}/>' for one, two in pairs)
+        contacts = "".join(f'<pair geom1="{a}" geom2="{b}" {contact}/>' for a, b in pairs)
         return mujoco.MjModel.from_xml_string(
             f'<mujoco><option timestep="{self.seconds}" gravity="0 0 {-STANDARD_GRAVITY}"'
             f' integrator="Euler" solver="Newton" tolerance="1e-12" cone="elliptic"'
@@ -207,9 +203,9 @@ def motion(
     pushes = -STANDARD_GRAVITY * np.outer(ground(times), towards)
     gravity, step = model.opt.gravity[:2], mujoco.mj_step
     for begin in range(0, len(times) - look + 1, look):
-        some = pushes[begin : begin + look]
-        if some.any():
-            for push in some:
+        part = pushes[begin : begin + look]
+        if part.any():
+            for push in part:
                 gravity[:] = push
                 step(model, data)
         else:
@@ -222,7 +218,8 @@ def motion(
 
 def overturns(bodies: Bodies, pulse: Pulse, direction: float = 0.0) -> bool:
     """Return whether a pulse overturns a column."""
-    looks = motion(bodies, pulse.excitation, pulse.duration + WAIT * bodies.scale, direction)
+    duration = pulse.duration + WAIT / bodies.column.frequency_parameter
+    looks = motion(bodies, pulse.excitation, duration, direction)
     inclined = ((time, math.acos(min(1.0, turned[:, 2, 2].min()))) for time, turned in looks)
     return overturn(inclined, bodies.column, pulse)
 

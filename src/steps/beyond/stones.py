@@ -16,9 +16,9 @@ import pymunk
 from steps.beyond.inclinations import WAIT, overturn
 from topheavy import STANDARD_GRAVITY, Cap, Column, Pulse
 
-ITERATIONS = 50  # of the contact forces in a time step; pymunk's default is 10
+ITERATIONS = 50  # iterations of contact forces in a time step; pymunk's default is 10
 LOOK = 50  # time steps between looks
-GROUND = 1e3  # m, half its length
+GROUND = 1e3  # half the length of the ground, m
 BEAM, OPEN, HINGED = "one beam", "open joints", "hinged joints"
 VERSION = f"pymunk {pymunk.version}"
 
