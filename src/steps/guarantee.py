@@ -147,14 +147,14 @@ def attacked(settings: dict) -> Iterator[dict]:
     for angle, gamma, visits in cases:
         block = RockingFrame(column_of(angle), gamma).block()
         expected = velocity(block, visits)
-        found = bisected(
+        limit = bisected(
             partial(survives, block, visits=visits),
             [end * expected for end in BEGIN],
             spec["tolerance"] * expected,
             f"α = {angle:g}°, γ = {gamma:g}, n = {visits}",
         )
         row = {"slenderness_deg": angle, "mass_ratio": gamma, "visits": visits}
-        yield row | {"stated": expected, "found": found}
+        yield row | {"stated": expected, "found": limit}
 
 
 def worst_motion(block: RockingBlock, limit: float, step: float) -> tuple[Record, int, Response]:

@@ -1,6 +1,7 @@
 """Prove the quoted minima and one exception with balls that contain the true numbers."""
 
 import math
+from dataclasses import asdict
 from typing import Any
 
 import pandas as pd
@@ -8,7 +9,6 @@ import pandas as pd
 from replication.step import run, stop, truth
 from steps.shared.balls import NotProvenError, block_of, outcome
 from steps.shared.cases import column_of
-from topheavy import Column
 
 SHAPE = "one-cosine"
 QUOTED = [("column", 0.0), ("frame", 1.0), ("frame", math.inf)]
@@ -51,11 +51,10 @@ def compute(
         )
     ]
     for case in spectra_histories.drop_duplicates("mass_ratio").to_dict("records"):
-        thin: Column = column_of(case["slenderness_deg"])
+        thin = column_of(case["slenderness_deg"])
         amplitude = float(f"{case['amplitude_over_uplift'] * thin.uplift_acceleration:.15g}")
         length = 2.0 * math.pi / (case["frequency_ratio"] * thin.frequency_parameter)
-        sizes = {"half_width": thin.half_width, "half_height": thin.half_height}
-        end = proven(sizes, case["mass_ratio"], amplitude, length)
+        end = proven(asdict(thin), case["mass_ratio"], amplitude, length)
         rows.append(
             {"part": "exception", "structure": "frame", "mass_ratio": case["mass_ratio"]}
             | {"amplitude": f"{amplitude:.15g}", "outcome": end}

@@ -19,9 +19,9 @@ from topheavy import Cap, Column, Pulse, RockingFrame, simulate
 from topheavy.forces.members import base_shear_slope, clamped_forces, largest_forces
 
 FORCES = ("base_shear", "overturning_moment", "bending_moment")
-SEED = 2014  # of the histories that the plain solver computes again
-CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
-HALVED = 5e-3  # relative: what half as many samples may change a peak by
+SEED = 2014  # seed of the sample of histories that the plain solver computes again
+CLOSE = 1e-3  # relative difference of the peaks of two solvers
+HALVED = 5e-3  # relative change of a peak with half as many samples
 
 
 def peaks(
@@ -31,29 +31,28 @@ def peaks(
 
     NaN where it overturns.
     """
-    whole = simulate(frame, pulse, samples=2)
-    if whole.overturned:
-        return whole.outcome, np.full(len(FORCES), math.nan)
-    course = history(frame, pulse, points, solver, whole)
+    response = simulate(frame, pulse, samples=2)
+    if response.overturned:
+        return response.outcome, np.full(len(FORCES), math.nan)
+    course = history(frame, pulse, points, solver, response)
     fine, coarse = largest_forces(frame, cap, course.rotation, course.velocity, course.ground)
     check(
         bool(np.allclose(coarse, fine, rtol=HALVED)),
         f"half as many points change {fine} to {coarse}: {frame} under {pulse}",
     )
-    return whole.outcome, fine
+    return response.outcome, fine
 
 
 def compute(settings: dict, column: dict) -> list[dict]:
     """Return the largest forces of each history, and over those of the clamped rigid frame."""
-    of = Column(**column)
-    cap = cap_of(settings["cap"])
-    pulses = product(settings["shapes"], map(float, grid(settings["frequency_ratios"])))
-    cells = [*product(pulses, settings["mass_ratios"], settings["amplitudes"])]
+    base, cap = Column(**column), cap_of(settings["cap"])
+    shapes, ratios = settings["shapes"], map(float, grid(settings["frequency_ratios"]))
+    cells = product(shapes, ratios, settings["mass_ratios"], settings["amplitudes"])
     rows, survivors = [], []
-    for (shape, ratio), gamma, amplitude in cells:
-        frame = RockingFrame(of, gamma)
+    for shape, ratio, gamma, amplitude in cells:
+        frame = RockingFrame(base, gamma)
         level, slope = frame.uplift_acceleration, base_shear_slope(frame)
-        pulse = pulse_on(of, shape, ratio, amplitude)
+        pulse = pulse_on(base, shape, ratio, amplitude)
         outcome, forces = peaks(frame, cap, pulse, settings["points"])
         clamped = clamped_forces(frame, cap, pulse)
         rows.append(
@@ -65,12 +64,12 @@ def compute(settings: dict, column: dict) -> list[dict]:
         )
         if outcome != "overturned":
             survivors.append((frame, pulse, forces))
-    picked = np.random.default_rng(SEED).permutation(len(survivors))[: settings["sample"]]
-    for frame, pulse, forces in (survivors[place] for place in picked):
-        _, again = peaks(frame, cap, pulse, settings["points"], plain.simulate)
+    sample = np.random.default_rng(SEED).permutation(len(survivors))[: settings["sample"]]
+    for frame, pulse, forces in (survivors[number] for number in sample):
+        _, repeated = peaks(frame, cap, pulse, settings["points"], plain.simulate)
         check(
-            bool(np.allclose(again, forces, rtol=CLOSE)),
-            f"the plain solver has {again} in place of {forces}: {frame} under {pulse}",
+            bool(np.allclose(repeated, forces, rtol=CLOSE)),
+            f"the plain solver has {repeated} in place of {forces}: {frame} under {pulse}",
         )
     return rows
 
@@ -78,21 +77,21 @@ def compute(settings: dict, column: dict) -> list[dict]:
 def findings(uplift: pd.DataFrame) -> dict[str, Any]:
     """Return whether all forces, and the base shear, are lower than those of the clamped frame."""
     survivors = uplift[uplift.outcome != "overturned"]
-    largest = {name: float(survivors[f"{name}_over_clamped"].max()) for name in FORCES}
-    overturned = len(uplift) - len(survivors)
+    largest = survivors[[f"{name}_over_clamped" for name in FORCES]].max()
+    base_shear, overturned = largest["base_shear_over_clamped"], len(uplift) - len(survivors)
     evidence = {"histories": len(uplift), "overturned": overturned}
     return {
         "uplift_limits_forces": truth(
-            overturned == 0 and max(largest.values()) < 1.0,
-            holds_when=max(largest.values()) < 1.0,
+            overturned == 0 and largest.max() < 1.0,
+            holds_when=largest.max() < 1.0,
             condition="the frame survives, and is compared with a rigid one that is clamped "
             "against uplift, whose columns are cantilevers",
             **evidence,
-            base_shear_largest=largest["base_shear"],
+            base_shear_largest=base_shear,
         ),
         "uplift_is_beneficial": truth(
-            overturned == 0 and largest["base_shear"] < 1.0,
-            holds_when=largest["base_shear"] < 1.0,
+            overturned == 0 and base_shear < 1.0,
+            holds_when=base_shear < 1.0,
             condition="the frame survives; the benefit is a lower base shear than that of a rigid "
             "frame clamped against uplift",
             **evidence,

@@ -15,30 +15,29 @@ from steps.shared.cases import column_of
 from steps.shared.samples import NUDGE, check_sample
 from topheavy import Column, RockingFrame, capacity, overturned_by, read_record
 
-BESIDE = 3  # factors on either side of a change of the outcome
+BESIDE = 3  # factors on either side of a change of the outcome that are computed again
 
 
 def compute(settings, solver, structures, components):
-    sizes, tightened = geometric(settings["sizes"]), solver["tightened"]
-    pool = [column_of(degrees, size) for degrees in settings["slendernesses"] for size in sizes]
-    finer = settings["factors"] | {"points": settings["by_structure"]["factors"]}
-    by_structure = {name: Column(**structures[name]) for name in settings["by_structure"]["names"]}
+    tightened, spec = solver["tightened"], settings["by_structure"]
+    cases = product(settings["slendernesses"], geometric(settings["sizes"]))
+    pool, factors = [column_of(*case) for case in cases], settings["factors"]
+    coarse, fine = geometric(factors), geometric(factors | {"points": spec["factors"]})
+    records = [*map(read_record, components)]
     rows, edges, counts = [], [], []
-    for path in components:
-        record = read_record(path)
-        outcomes, changes = scaled(
-            pool, settings, geometric(settings["factors"]), record, tightened
-        )
+    for record in records:
+        outcomes, changes = scaled(pool, settings, coarse, record, tightened)
         rows += [{"record": record.name} | row for row in compared(outcomes)]
         edges += changes
-        for name, column in by_structure.items():
-            outcomes, _ = scaled([column], settings, geometric(finer), record, tightened)
+        for name in spec["names"]:
+            column = Column(**structures[name])
+            outcomes, _ = scaled([column], settings, fine, record, tightened)
             labels = {"structure": name, "record": record.name}
             counts += [labels | row for row in compared(outcomes)]
-    at = np.linspace(0, len(edges) - 1, settings["sample"]).astype(int)
-    check_sample(edges[place] for place in at)
-    spec, column = settings["capacity"], Column(**structures[settings["capacity"]["structure"]])
-    records = map(read_record, components)
+    sample = np.linspace(0, len(edges) - 1, settings["sample"]).astype(int)
+    check_sample(edges[number] for number in sample)
+    spec = settings["capacity"]
+    column = Column(**structures[spec["structure"]])
     capacity_rows = [*capacities(spec, column, records, tightened)]
     return {"table": rows, "structures": counts, "capacity": capacity_rows}
 
@@ -85,48 +84,47 @@ def capacities(spec, column, records, tightened):
         ends = [(1.0 + window) * first.over(window) for window in spec["windows"]]
         check(np.isfinite(ends).all(), f"{record.name}: no capacity in a window")
         begin = first.overturned.argmax()
-        some = slice(begin, np.searchsorted(first.factors, max(ends)) + 1)
-        again, nudged = first.overturned.copy(), (1.0 + NUDGE) * first.factors[some]
-        again[some] = overturned_by(frame, record, nudged, tolerance=tightened)
-        other = replace(first, overturned=again)
+        part = slice(begin, np.searchsorted(first.factors, max(ends)) + 1)
+        fell, nudged = first.overturned.copy(), (1.0 + NUDGE) * first.factors[part]
+        fell[part] = overturned_by(frame, record, nudged, tolerance=tightened)
+        second = replace(first, overturned=fell)
         for window in spec["windows"]:
             factor = first.over(window)
-            is_same = factor == other.over(window)
+            is_decided = factor == second.over(window)
             yield (
                 {"record": record.name, "mass_ratio": gamma, "window": window}
-                | {"capacity": record.peak_acceleration * factor if is_same else math.nan}
+                | {"capacity": record.peak_acceleration * factor if is_decided else math.nan}
             )
 
 
 def overturned(frame, record, factors, tightened):
     """Return 1 for factors that overturn, −1 for those that do not, and 0 where this is not known.
 
-    It is not known if a relative change of NUDGE in the record, or a tighter tolerance, changes it.
-    Only factors at most BESIDE steps from a change of the outcome are computed again: single ones
-    elsewhere may be as sensitive, and are counted.
+    An outcome is not known if a relative change of NUDGE in the record, or a tighter tolerance,
+    changes it. Only factors within BESIDE steps of a change of the outcome are tested. Others may
+    be as sensitive; their outcomes count as known.
     """
-    found = overturned_by(frame, record, factors)
-    changes = np.flatnonzero(found[1:] != found[:-1])
-    steps = np.arange(1 - BESIDE, 1 + BESIDE)
-    again = np.unique(np.clip(np.add.outer(changes, steps), 0, found.size - 1))
-    outcomes = np.where(found, 1, -1)
-    if again.size:
-        others = [
-            overturned_by(frame, record, factors[again] * (1.0 + by)) for by in (-NUDGE, NUDGE)
+    fell = overturned_by(frame, record, factors)
+    changes, steps = np.flatnonzero(fell[1:] != fell[:-1]), np.arange(1 - BESIDE, 1 + BESIDE)
+    tested = np.unique(np.clip(np.add.outer(changes, steps), 0, fell.size - 1))
+    outcomes, near = np.where(fell, 1, -1), factors[tested]
+    if tested.size:
+        repeated = [
+            overturned_by(frame, record, near * (1.0 - NUDGE)),
+            overturned_by(frame, record, near * (1.0 + NUDGE)),
+            overturned_by(frame, record, near, tolerance=tightened),
         ]
-        others.append(overturned_by(frame, record, factors[again], tolerance=tightened))
-        outcomes[again[(others != found[again]).any(axis=0)]] = 0
+        outcomes[tested[(repeated != fell[tested]).any(axis=0)]] = 0
     return outcomes
 
 
 def findings(records, records_structures, records_capacity, settings):
-    at = ["window", "record"]
-    by_mass = records_capacity.pivot(index=at, columns="mass_ratio", values="capacity")
+    by_mass = records_capacity.pivot(
+        index=["window", "record"], columns="mass_ratio", values="capacity"
+    )
     gains, undecided = by_mass.div(by_mass[0.0], axis=0) - 1.0, by_mass.isna()
     middles, stated = gains.groupby("window").median(), settings["capacity"]["windows"][0]
-    cases = ["only_lighter", "only_heavier"]
-    counts = records.groupby(["lighter", "heavier"])[cases].sum()
-    by_structure = records_structures.groupby(["structure", "lighter", "heavier"])[cases].sum()
+    labels, cases = ["structure", "lighter", "heavier"], ["only_lighter", "only_heavier"]
     return (
         {
             "heavier_is_safer": truth(
@@ -144,12 +142,9 @@ def findings(records, records_structures, records_capacity, settings):
             ),
         }
         | {
-            f"pair_{light:g}_{heavy:g}": truth(row.only_heavier < row.only_lighter, **row)
-            for (light, heavy), row in counts.iterrows()
-        }
-        | {
             f"{name}_{light:g}_{heavy:g}": truth(row.only_heavier < row.only_lighter, **row)
-            for (name, light, heavy), row in by_structure.iterrows()
+            for table in (records.assign(structure="pair"), records_structures)
+            for (name, light, heavy), row in table.groupby(labels)[cases].sum().iterrows()
         }
         | {
             f"gain_{gamma:g}": truth(

@@ -18,7 +18,7 @@ from flint import arb, arb_series, ctx, fmpq
 from topheavy import STANDARD_GRAVITY
 
 BITS, TERMS, STEPS = 160, 32, 40  # bits of a number, terms of a step, steps of a pulse
-ITERATIONS, HALVINGS = 60, 40  # limits of Picard's iteration, and of the search for a sign
+ITERATIONS, HALVINGS = 60, 40  # most iterations of Picard, and most halvings of a search for a sign
 INFLATION = 0.1  # relative widening of a range that does not contain the motion yet
 ctx.prec = BITS
 

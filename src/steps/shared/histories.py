@@ -11,8 +11,8 @@ from topheavy import Pulse, Response, RockingFrame, simulate
 
 Array = NDArray[np.float64]
 
-ASIDE = 1e-9  # over p: how near to an impact each side of it is computed
-CHUNKS = 4.0  # of a period of a pulse: pieces of an arc in which the forces turn at most once or so
+ASIDE = 1e-9  # time from an impact at which each side of it is computed, times 1/p
+CHUNKS = 4.0  # pieces of an arc per period of a pulse: about one extremum of the forces in each
 
 
 @dataclass(frozen=True, eq=False)

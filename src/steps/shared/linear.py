@@ -45,13 +45,13 @@ def simulate_linear_exact(
 def exact_step(lanes: NDArray[np.float64], x: Any, dx: Any, drive: Drive) -> NDArray[np.float64]:
     """Return φ and dφ/dτ after a step of dx on one side, as `audit.leapfrog` does."""
     side, phi, rate, alpha, amplitude, pace = lanes[[SIDE, PHI, RATE, ALPHA, AMP, PACE]]
-    at = drive.ground.at
-    is_wave = at in (np.sin, np.cos)
+    push = drive.ground.at
+    is_wave = push in (np.sin, np.cos)
     share = side * amplitude * (1.0 / (1.0 + pace**-2.0) if is_wave else 1.0)
 
     def forced(x: Any) -> NDArray[np.float64]:  # behind a sine or cosine by a quarter of a period
-        slope = at(x + np.pi / 2.0) if is_wave else at(1.0) - at(0.0)
-        return np.array([alpha + share * at(x), share * slope / pace])
+        slope = push(x + np.pi / 2.0) if is_wave else push(1.0) - push(0.0)
+        return np.array([alpha + share * push(x), share * slope / pace])
 
     offset, speed = np.array([phi, rate]) - forced(x)
     cosh, sinh = np.cosh(dx * pace), np.sinh(dx * pace)
