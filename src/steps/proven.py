@@ -63,7 +63,7 @@ def compute(
 
 
 def findings(proven: pd.DataFrame, vase: pd.DataFrame) -> dict[str, Any]:
-    """Return whether the outcomes enclose the quoted minima, and what the exception is."""
+    """Return whether the outcomes enclose the quoted minima, and whether the exception holds."""
     minima = proven[proven.part == "minimum"].sort_values("amplitude")
     structures = minima.groupby(["structure", "mass_ratio"])
     below, above = structures.amplitude.min(), structures.amplitude.max()

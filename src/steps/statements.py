@@ -87,7 +87,7 @@ def three_bodies(frame, cap, pulse, duration, samples):
 
 
 def oscillator(frame, pulse):
-    """Yield what single histories and formulas give: statement, quantity and number."""
+    """Yield the results of single histories and formulas: statement, quantity and number."""
     column = frame.column
     for name, share in (("above", 1.0 + STEP_ASIDE), ("below", 1.0 - STEP_ASIDE)):
         weak = pulse.scaled(share * column.uplift_acceleration / pulse.amplitude)
@@ -119,7 +119,7 @@ def oscillator(frame, pulse):
 
 
 def structure(column, mass_ratios):
-    """Yield what geometry and algebra give: statement, quantity and number."""
+    """Yield the results of geometry and algebra: statement, quantity and number."""
     rotations = np.linspace(-column.slenderness, column.slenderness, 101)
     displacements, gaps = np.transpose(cap_displacement(column, rotations)), []
     for rotation, displacement in zip(rotations, displacements, strict=True):

@@ -27,9 +27,9 @@ HALVED = 5e-3  # relative change of a peak with half as many samples
 def peaks(
     frame: RockingFrame, cap: Cap, pulse: Pulse, points: int, solver: Callable = simulate
 ) -> tuple[str, np.ndarray]:
-    """Return the outcome of a history and its largest forces over the weight, a shear and moments.
+    """Return the outcome of a history, and its largest `FORCES` over the weight.
 
-    NaN where it overturns.
+    The forces are NaN if the frame overturns.
     """
     response = simulate(frame, pulse, samples=2)
     if response.overturned:
@@ -44,7 +44,7 @@ def peaks(
 
 
 def compute(settings: dict, column: dict) -> list[dict]:
-    """Return the largest forces of each history, and over those of the clamped rigid frame."""
+    """Return the largest forces of each history, normalised by those of the clamped rigid frame."""
     base, cap = Column(**column), cap_of(settings["cap"])
     shapes, ratios = settings["shapes"], map(float, grid(settings["frequency_ratios"]))
     cells = product(shapes, ratios, settings["mass_ratios"], settings["amplitudes"])

@@ -109,7 +109,7 @@ def agreement(settings, tightened):
 
 
 def boundary(quantity, near):
-    """Return the boundary of overturning that is nearest to a factor, known to 2 %."""
+    """Return the boundary of overturning that is nearest to a factor, and within 2 % of it."""
     intervals = overturning_intervals(
         *PRINTED[quantity], (0.98 * near, 1.02 * near), resolution=1e-4 * near
     )
@@ -129,7 +129,7 @@ def free_rocking():
     peak = np.abs(simulate(slender, rotation=0.5 * alpha, samples=times).rotation).max()
     exact = RockingBlock(1.0, alpha, 1.0)
     first, *_ = simulate(exact, rotation=0.9 * alpha, duration=9.0, samples=2).impact_times
-    half, least = alpha / 2.0, 0.1 * alpha / 2.0  # of the angle to the vertical at rest, at first
+    half, least = alpha / 2.0, 0.1 * alpha / 2.0  # halves of α, and of α − |θ₀|
     angle = math.acos(math.sin(least) / math.sin(half))
     argument = math.asin(math.sin(angle) / math.cos(least))
     rows = [  # θ₀ = α/2: Housner's formulas; θ₀ = 0.9 α: the energy, as an elliptic integral

@@ -1,6 +1,6 @@
-"""How far √r of the column may be lowered until the benefit of the cap beam ends.
+"""Reduction of √r of the column at which the benefit of the cap beam ends.
 
-The benefit is the probability that the column overturns less that of the frame, under the same
+The benefit is the probability that the column overturns minus the frame's, under the same
 motions. A lower √r of the column alone reduces it, but for the scatter of a finite number of
 motions: it ends where its non-increasing (isotonic) fit is zero.
 """
@@ -86,7 +86,7 @@ def compare(name, settings, ensemble, means):
     The last row is that of impulses within the contacts.
     """
     shares, within = list(reductions(settings)), means.shape[1] - 2
-    first, cases = len(shares), []  # what is lowered, by how much; places of column and frame
+    first, cases = len(shares), []  # lowered structures, reduction, places of column and frame
     for number, share in enumerate([0.0, *settings["lowered"]]):
         cases.append(("both", share, shares.index(share), first + number))
         if share:
@@ -116,7 +116,7 @@ def sampled(samples, settings, motions, column):
 
 
 def findings(break_even, break_even_benefit, settings):
-    """Return where the benefit ends, and its size as √r of Eq. (25) and as measured say."""
+    """Return where the benefit ends, and its size with √r of Eq. (25) and with measured √r."""
     ends, benefits = break_even, break_even_benefit
     lowered = benefits[benefits.lowered == "both"]
     known = ends[np.isfinite(ends.end)]

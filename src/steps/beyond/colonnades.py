@@ -42,7 +42,7 @@ def colonnade(column, mass_ratio, columns, span):
 
 
 def compute(settings, structures):
-    """Return the minima over that of one column in theory and engine, by joints, γ and pulse."""
+    """Return minima in theory and engine, normalised by that of one column in theory."""
     column, cap = Column(**structures[settings["structure"]]), cap_of(settings["cap"])
     usual = {name: settings[name] for name in ("time_step", "friction")}
     gammas, pulses = settings["mass_ratios"], settings["pulses"]
@@ -74,7 +74,7 @@ def compute(settings, structures):
 
 
 def findings(colonnades, settings):
-    """Return whether stones of single bays lower uplift acceleration and slow pulses' minima."""
+    """Return whether stones of single bays lower the uplift acceleration and the minima."""
     apart = (colonnades.engine - colonnades.theory).abs()
     check(apart.max() < AGREE, f"pymunk and theory differ by {apart.max():.3f}")
     usual = colonnades[colonnades.joints == OPEN].drop_duplicates(

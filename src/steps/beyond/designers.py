@@ -1,4 +1,4 @@
-"""Table for designers: what a cap beam of each γ does to a column.
+"""Table for designers: effects of a cap beam of each γ on a column.
 
 Geometry, and ranges over the tables of the rules motions, uplift and friction. Under γ = ∞ the
 force of a column acts along its diagonal: the required friction is tan α, that of uplift.

@@ -16,8 +16,8 @@ SMALLEST_PEAK = 0.02  # smallest peak of a bounce whose loss counts, times α
 def overturn(looks: Iterable[tuple[float, float]], column: Column, pulse: Pulse) -> bool:
     """Return whether a pulse inclines a column by π/3, from times (s) and largest inclinations.
 
-    Bodies survive that rest after the pulse, that return to upright twice without it, as each
-    impact takes energy, and that still rock 14/p after it.
+    Bodies survive if they rest after the pulse, return to upright twice (each impact takes energy),
+    or still rock 14/p after it.
     """
     p, returns, upright_since = column.frequency_parameter, 0, math.inf
     for time, inclination in looks:
@@ -38,8 +38,8 @@ def overturn(looks: Iterable[tuple[float, float]], column: Column, pulse: Pulse)
 def free_rocking(rotations: np.ndarray, time_step: float, column: Column) -> tuple[float, list]:
     """Return the time of the first impact (s), and √r of each, after a release from rest at θ > 0.
 
-    Energy is kept between impacts, so that √r is the root of the ratio of the rise of the centres
-    of gravity at the peak after an impact to that before it.
+    The energy is constant between impacts. √r² therefore is the ratio of two rises of the centres
+    of gravity: at the peak after an impact, and at the peak before it.
     """
     b, h = column.half_width, column.half_height
     impacts = np.flatnonzero(rotations[1:] * rotations[:-1] < 0.0) + 1

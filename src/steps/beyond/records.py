@@ -74,9 +74,9 @@ def compared(outcomes):
 def capacities(spec, column, records, tightened):
     """Yield the capacities of the column (γ = 0) and its frames under each record, in g, by window.
 
-    A capacity is a threshold on a count of outcomes, which one outcome can move far. From the first
-    factor that overturns to the end of the last window it is computed again, under the record times
-    1 + NUDGE and at the tightened tolerance; unless it is the same, it is not decided, and NaN.
+    A capacity is a threshold on a count of outcomes, which one outcome can move far. The outcomes
+    from the first factor that overturns to the end of the last window are computed again, under the
+    record times 1 + NUDGE and at the tightened tolerance. If they change the capacity, it is NaN.
     """
     for record, gamma in product(records, spec["mass_ratios"]):
         frame = RockingFrame(column, gamma)

@@ -37,7 +37,7 @@ LOOK = 20  # time steps between looks
 
 
 def checked_version() -> str:
-    """Return the engine's name and version, or stop if it is not the installed one, or too old.
+    """Return the engine's name and version, or stop if its module is not its package's, or too old.
 
     Before 3.12, √r of frames was 0.01 to 0.03 off; 4.0.0 factorises sparse matrices wrongly.
     """

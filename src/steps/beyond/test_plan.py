@@ -1,4 +1,4 @@
-"""A test of one inequality: a pulse that overturns the column and not the frame, and repeats."""
+"""A plan to test one inequality: a pulse that overturns only the column, and its repeats."""
 
 import math
 from itertools import count, product
@@ -63,12 +63,12 @@ def surviving_reduction(block, pulse):
 
 
 def repeats(right, risk):
-    """Return the least odd number of repeats whose majority is wrong with at most a risk."""
+    """Return the least odd number of repeats whose majority is wrong with a probability ≤ risk."""
     return next(n for n in count(1, 2) if bdtr(n // 2, n, right) <= risk)
 
 
 def findings(test_plan):
-    """Return the pulse between column and frame, and the repeats of all pairs, widest scatter."""
+    """Return the pulse between column and frame, and the repeats of all pairs at the largest scatter."""
     rows = test_plan[test_plan.scatter == test_plan.scatter.max()]
     first, repeats = rows.iloc[0], rows.repeats.to_list()
     error = 1e-6 * first.pulse  # far above the width of the brackets of minima

@@ -1,4 +1,4 @@
-"""Outcomes under one-cosine pulses, proven: each number is a ball that contains the true one (Arb).
+"""Proven outcomes under one-cosine pulses: each number is a ball that contains the true one (Arb).
 
 Time is τ = p t. With φ = |θ|, the side s and the ground acceleration a (g), Eq. (23) reads
 
@@ -47,7 +47,7 @@ class State(NamedTuple):
 
 
 def exact(number: float | str) -> arb:
-    """Return a decimal, of a float its shortest one, as a ball."""
+    """Return a decimal number as a ball; a float stands for its shortest decimal."""
     fraction = Fraction(str(number))
     return arb(fmpq(fraction.numerator, fraction.denominator))
 
@@ -97,7 +97,7 @@ def outcome(block: Block) -> str:
 
 
 def after_impact(block: Block, state: State, polynomial: list[arb], length: arb) -> State:
-    """Return the state behind the first impact of a step: its bracket is one ball of times."""
+    """Return the state after the first impact of a step, whose time is a ball."""
     shape, rate, low, high = polynomial[state.zeros :], slope(polynomial), arb(0), length
     if not value(shape, high) < 0:
         raise NotProvenError("no impact and no flight")
@@ -123,7 +123,7 @@ def after_impact(block: Block, state: State, polynomial: list[arb], length: arb)
 
 
 def outcome_of_energy(block: Block, state: State) -> str:
-    """Return the outcome when the ground has come to rest, as `topheavy.bodies.free_rocking`."""
+    """Return the outcome after the pulse by energies, as `topheavy.bodies.free_rocking` does."""
     alpha, phi, rate = block.slenderness, state.rotation, state.velocity
     energy, barrier = rate**2 / 2 + (alpha - phi).cos() - alpha.cos(), 1 - alpha.cos()
     if (rate > 0 and energy > barrier) or (phi > alpha and energy < barrier):

@@ -13,7 +13,7 @@ HIGHEST, FLOOR = 40.0, 1e-3
 
 
 def column_of(degrees: float, size: float = 1.0) -> Column:
-    """Return the column of a slenderness in degrees and a size R in m, but for rounding."""
+    """Return the column of a slenderness (degrees) and a size R (m)."""
     slenderness = math.radians(degrees)
     return Column(size * math.sin(slenderness), size * math.cos(slenderness))
 
@@ -31,7 +31,7 @@ def cap_of(spec: dict[str, float]) -> Cap:
 def pulse_on(
     column: Column, shape: str, frequency_ratio: float, amplitude: float = 1.0, cycles: int = 1
 ) -> Pulse:
-    """Return a pulse by ω/p and its acceleration amplitude over g tan α of a column."""
+    """Return a pulse of a given ω/p and of an acceleration amplitude times g tan α of a column."""
     return Pulse(
         shape,
         amplitude * column.uplift_acceleration,

@@ -30,13 +30,12 @@ def motion(settings: Settings, number: int, column: Column) -> Record:
     omega = settings["frequency_ratio"] * column.frequency_parameter
     step = 2.0 * math.pi / (omega * settings["points"])
     times = step * np.arange(round(cycles * settings["points"]) + 1)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # that the ground still moves at the end is meant
+    with warnings.catch_warnings(action="ignore"):  # the ground still moves at the end
         return Record(step, column.uplift_acceleration * np.sin(omega * times + phase))
 
 
 def outcomes(settings: Settings, gammas: list[float], column: Column) -> NDArray[np.bool_]:
-    """Return what overturns, shape (motions, structures, levels): γ = 0 is the column."""
+    """Return whether motions overturn frames, shape (motions, γ, levels); γ = 0 is the column."""
     levels = np.array(settings["amplitudes"])
     frames = [RockingFrame(column, gamma) for gamma in gammas]
     motions = (motion(settings, number, column) for number in range(settings["motions"]))

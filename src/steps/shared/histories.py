@@ -1,4 +1,4 @@
-"""A whole rocking history in arcs between impacts, so that both sides of every jump are seen."""
+"""A whole rocking history in arcs between impacts, with samples on both sides of every jump."""
 
 import math
 from collections.abc import Callable
@@ -17,7 +17,7 @@ CHUNKS = 4.0  # pieces of an arc per period of a pulse: about one extremum of th
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """Arcs between impacts and other kinks, each with as many samples, shape (arcs, samples)."""
+    """Arcs between impacts and other kinks; all arrays have the shape (arcs, samples)."""
 
     rotation: Array
     velocity: Array

@@ -17,7 +17,7 @@ from topheavy.bodies.structures import Structure, as_block
 from topheavy.ground.excitation import Excitation, checked_excitation
 from topheavy.ground.records import both_records, check_no_free_fall, trim_zeros
 
-FREE = 60.0  # times 1/p: duration of free rocking, in which a block with √r = 0.9 comes to rest
+FREE = 60.0  # duration of free rocking in which a block with √r = 0.9 comes to rest, times 1/p
 
 
 def ground_of(
@@ -73,9 +73,9 @@ def judge(
 
 
 def judge_pulses(cells: Sequence[tuple[Structure, Pulse]]) -> list[Outcome]:
-    """Return how responses to pulses end; those of one shape and equation are followed together.
+    """Return how responses to pulses end.
 
-    Together they take a fraction of the time that one takes after another.
+    Responses to pulses of one shape by one equation are followed together, which is faster.
     """
     ends, groups = {}, defaultdict(list)
     for number, (structure, pulse) in enumerate(cells):

@@ -13,7 +13,7 @@ from replication.step import check
 from steps.shared import plain
 from topheavy import Record, Response, RockingBlock, judge
 
-NEAR = 1e-3  # relative: largest distance of a factor from a change of outcome
+NEAR = 1e-3  # largest relative distance of a factor from a change of outcome
 NUDGE = 1e-9  # relative change of a motion, smaller than any measurement resolves
 
 Cell = tuple[RockingBlock, Record, Record | None, float, bool]
@@ -26,7 +26,7 @@ def overturns(block: RockingBlock, record: Record, up: Record | None, factor: fl
 
 
 def beside_a_boundary(overturns: Callable[[float], bool], factor: float) -> float:
-    """Return a factor with the outcome of this one, within NEAR of one with the other outcome."""
+    """Return a factor with the same outcome, within NEAR of a factor with the other outcome."""
     outcome, beyond = overturns(factor), factor
     while overturns(beyond) == outcome:
         factor, beyond = beyond, beyond * (0.9 if outcome else 1.1)
@@ -46,7 +46,8 @@ def is_known(block: RockingBlock, record: Record, up: Record | None, factor: flo
 def motion_of(cell: Cell) -> tuple[Record, Record | None, float]:
     """Return the motion of a cell, by which structures may be followed together.
 
-    Factors on a vertical motion differ from those on amplitudes: there the factor is of the motion.
+    Factors on horizontal motions are amplitudes of one motion; with a vertical component, each
+    factor makes another motion.
     """
     _, record, up, factor, _ = cell
     return record, up, factor if up else 1.0

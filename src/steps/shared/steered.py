@@ -44,19 +44,21 @@ def moved(
 
 
 def compared(phi: Array, squares: Array, alpha: float) -> Array:
-    """Return Y = (x + α)/p², x = φ − α, and artanh sin(φ − α) beyond α."""
+    """Return Y = (x + α)/p² with x = φ − α up to α, and x = artanh sin(φ − α) beyond."""
     beyond = np.arctanh(np.sin(np.clip(phi - alpha, 0.0, 1.5)))
     return (np.where(phi <= alpha, phi, alpha + beyond)) / squares
 
 
 def bound(phi: Array, factor: float, alpha: float) -> Array:
-    """Return the largest push inward: the factor times cot(α − φ), and any one beyond α."""
+    """Return the largest push inward: the factor times cot(α − φ), and STRONGEST beyond α."""
     lean = np.maximum(alpha - np.maximum(phi, 0.0), 1e-9)
     return np.where(phi < alpha, np.minimum(factor / np.tan(lean), STRONGEST), STRONGEST)
 
 
 def attack(alpha: float, pairs: Any, factor: float, histories: int, seed: int) -> dict[str, int]:
-    """Return how many histories lose the order Y₁ ≥ Y₂, in how many frame 1 lands first, and more.
+    """Return the numbers of histories, of lost orders Y₁ ≥ Y₂, and of first landings of frame 1.
+
+    `samples_beyond_alpha` counts the time steps of all histories in which frame 2 is beyond α.
 
     Parameters
     ----------

@@ -95,7 +95,7 @@ def simulate_three_bodies(
 
     Notes
     -----
-    Contacts are held also where a force would have to pull: `forces` tells where. All nine
+    Contacts hold also where a force would have to pull, as `forces` shows. All nine
     coordinates are integrated without correction; at an impact, when the frame is upright,
     they are set to zero. It rests when the next bounce peaks below `REST_PEAK` of α and the ground
     cannot lift it before the bouncing has died out.
@@ -210,7 +210,7 @@ def _rests(
     rate: float,
     ratio: float,
 ) -> bool:
-    """Return whether the bounces that start here are negligible and die out.
+    """Return whether the bounces after an impact are negligible and die out.
 
     At the restoring acceleration d a bounce lasts 2 θ̇/d, and the train of them
     2 θ̇/d(1 − ratio); it is over when d keeps above a half of its value for twice that long.
