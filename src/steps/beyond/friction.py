@@ -82,17 +82,14 @@ def compare(frame, cap, row, settings):
 
 def by_mass(pulses):
     """Return for each bay and γ the largest required coefficient of friction."""
-    return pd.DataFrame(
-        {
-            "bay": bay,
-            "mass_ratio": gamma,
-            "survived": len(part),
-            "required": part.required.max(),
-            "error": part.error.max(),
-            "least_vertical": part.least_vertical.min(),
-        }
-        for (bay, gamma), part in pulses.groupby(["bay", "mass_ratio"], sort=False)
+    groups = pulses.groupby(["bay", "mass_ratio"], sort=False)
+    largest = groups.agg(
+        survived=("required", "size"),
+        required=("required", "max"),
+        error=("error", "max"),
+        least_vertical=("least_vertical", "min"),
     )
+    return largest.reset_index()
 
 
 def findings(friction_by_mass, settings):

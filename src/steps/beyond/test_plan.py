@@ -68,7 +68,7 @@ def repeats(right, risk):
 
 
 def findings(test_plan):
-    """Return the pulse between column and frame, and the repeats of all pairs at the largest scatter."""
+    """Return the pulse between column and frame, and all repeats at the largest scatter."""
     rows = test_plan[test_plan.scatter == test_plan.scatter.max()]
     first, repeats = rows.iloc[0], rows.repeats.to_list()
     error = 1e-6 * first.pulse  # far above the width of the brackets of minima
