@@ -1,6 +1,6 @@
 """Frames across their plane in a rigid-body engine."""
 
-from replication.drawing import GREY, SINGLE, gamma, note, shades, sheet
+from replication.drawing import GREY, SINGLE, gamma, note, shaded, sheet
 
 
 def draw(engine_across):
@@ -12,7 +12,7 @@ def draw(engine_across):
     chosen = chosen.drop_duplicates(["structure", "depth_over_width", "mass_ratio", "direction"])
     line = chosen[chosen.structure == "two in line"]
     gammas = sorted(line.mass_ratio.unique())
-    for mass_ratio, colour in zip(gammas, shades(len(gammas) + 1)[1:], strict=True):
+    for mass_ratio, colour in shaded([0.0, *gammas])[1:]:
         part = line[line.mass_ratio == mass_ratio]
         across = part[part.direction > 0].sort_values("depth_over_width")
         axis.plot(across.depth_over_width, across.theory, color=colour, label=gamma(mass_ratio))

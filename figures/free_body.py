@@ -17,7 +17,6 @@ GROUND = -0.1  # g, at the turning point that is drawn
 SEAT, UPPER_LEFT = 2, 3  # corners of `column_outline`; for θ < 0 the cap rests on the upper right
 UP, RIGHT = 1.0, 5.0  # m in the drawing for a vertical and a horizontal force of the cap's weight
 SET_OFF = 0.14  # m, between the cap and what is drawn beside it
-ASIDE = {"textcoords": "offset points"}
 AXES = (-SPAN / 2, SPAN / 2)
 LABELS = {  # of a force, and the place beside its arrow's free end, in points
     "F_x1": ("$F_{x1}$", (-15, -6)),
@@ -77,9 +76,9 @@ def draw_body(axis, corners, **look):
     axis.add_patch(Polygon(corners, **{"edgecolor": INK, "linewidth": 0.8} | look))
 
 
-def angle(axis, pivot, radius, first, last, words, at, aside):
+def angle(axis, pivot, radius, first, last, words, place, aside):
     axis.add_patch(Arc(pivot, 2 * radius, 2 * radius, theta1=first, theta2=last, color=FORCE))
-    note(axis, words, at, xytext=aside, color=FORCE, **ASIDE)
+    note(axis, words, place, aside, color=FORCE)
 
 
 def rotation(axis, at_rest, moved):
@@ -92,11 +91,11 @@ def rotation(axis, at_rest, moved):
         pivot, seat = column[0], column[SEAT]
         for point in (pivot, seat):
             axis.plot(*point, "o", color=FORCE, markersize=3.5, zorder=4)
-        note(axis, f"$O_{number}$", tuple(pivot), xytext=(-2, -8), ha="center", **ASIDE)
+        note(axis, f"$O_{number}$", tuple(pivot), (-2, -8), ha="center")
         axis.plot([pivot[0]] * 2, [0, 1.55], color=GREY, linewidth=0.6, linestyle=(0, (2, 2)))
     dx, dy = seat - pivot
     axis.plot([pivot[0], seat[0]], [0, seat[1]], color=GREY, linewidth=0.8)
-    note(axis, "$2R$", (pivot[0] + 0.78 * dx, 0.78 * dy), xytext=(-13, 3), **ASIDE)
+    note(axis, "$2R$", (pivot[0] + 0.78 * dx, 0.78 * dy), (-13, 3))
     lean, tilt = math.degrees(math.atan2(dx, dy)), math.degrees(-THETA)
     beside = (pivot[0] + 0.4 * dx, 0.95)
     angle(axis, tuple(pivot), 1.0, 90 - lean, 90, r"$\alpha+\theta$", beside, (2, -3))
@@ -111,8 +110,8 @@ def rotation(axis, at_rest, moved):
         axis.plot([beside - 0.08, end], [level, level], color=GREY, linewidth=0.5)
     arrow(axis, (x, above), (right - x, 0.0))
     arrow(axis, (beside, y), (0.0, top - y))
-    note(axis, "$u$", ((x + right) / 2, above), xytext=(0, 6), ha="center", color=FORCE, **ASIDE)
-    note(axis, "$v$", (beside, (y + top) / 2), xytext=(-9, 0), color=FORCE, **ASIDE)
+    note(axis, "$u$", ((x + right) / 2, above), (0, 6), ha="center", color=FORCE)
+    note(axis, "$v$", (beside, (y + top) / 2), (-9, 0), color=FORCE)
     arrow(axis, (0.9, -0.3), (0.7, 0.0), INK)
     note(axis, r"positive $\ddot{u}_g$", (1.67, -0.3))
 
@@ -133,7 +132,7 @@ def forces(axis, cap, columns):
             if name.startswith("F_x"):
                 start = (start[0] + SET_OFF / 2, start[1] - SET_OFF)
             free = arrow(axis, start, (RIGHT * size, 0.0))
-        note(axis, text, free, xytext=aside, ha="center", color=FORCE, **ASIDE)
+        note(axis, text, free, aside, ha="center", color=FORCE)
     shaken = f"$\\ddot{{u}}_g$ = {GROUND:g}$\\,g$".replace("-", "−")
     words = f"{shaken}; horizontal arrows $\\times$ {RIGHT / UP:g}"
     note(axis, words, (cap[:, 0].mean(), 1.1), ha="center", color=GREY)

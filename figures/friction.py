@@ -2,25 +2,23 @@
 
 import numpy as np
 
-from replication.drawing import DOUBLE, GREY, INK, gamma, letter, note, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, gamma, letter, logarithmic, note, shaded, sheet
 
 ENDS = (0.14, 1.2)  # of the axis of friction
 
 
 def draw(friction_pulses):
     table = friction_pulses
-    alone = table[table.mass_ratio == 0.0]
+    column = table[table.mass_ratio == 0.0]
     bays = [bay for bay in table.bay.unique() if bay > 0.0]
     figure, axes = sheet(DOUBLE, 48, ncols=len(bays), sharey=True)
     for axis, bay in zip(axes, bays, strict=True):
-        frames = list(table[table.bay == bay].groupby("mass_ratio"))
-        for (mass_ratio, part), colour in zip(frames, shades(len(frames)), strict=True):
+        for (mass_ratio, part), colour in shaded(table[table.bay == bay].groupby("mass_ratio")):
             _steps(axis, part.required, color=colour, label=gamma(mass_ratio))
-        _steps(axis, alone.required, color=INK, linestyle="--", label="column alone")
-        axis.axvline(alone.required.min(), color=GREY, linestyle=":", linewidth=0.8)
-        axis.set(xscale="log", xlim=ENDS, ylim=(0, 100), xlabel="Coefficient of friction, μ (–)")
-        axis.set_xticks(ticks := (0.2, 0.3, 0.5, 0.7, 1), [f"{tick:g}" for tick in ticks])
-        axis.set_xticks([], minor=True)
+        _steps(axis, column.required, color=INK, linestyle="--", label="column alone")
+        axis.axvline(column.required.min(), color=GREY, linestyle=":", linewidth=0.8)
+        logarithmic(axis, (0.2, 0.3, 0.5, 0.7, 1))
+        axis.set(xlim=ENDS, ylim=(0, 100), xlabel="Coefficient of friction, μ (–)")
     note(axes[0], r"$\tan\alpha$", (0.158, 50), ha="center", rotation=90, color=GREY)
     axes[0].set_ylabel("Pulses without sliding (%)")
     axes[-1].legend(loc="lower right")

@@ -2,7 +2,20 @@
 
 import math
 
-from replication.drawing import DOUBLE, GREY, INK, PALE, PAPER, gamma, letter, note, shades, sheet
+from replication.drawing import (
+    DASHED,
+    DOUBLE,
+    GREY,
+    INK,
+    PALE,
+    gamma,
+    letter,
+    note,
+    ratio_name,
+    ring,
+    shaded,
+    sheet,
+)
 
 BESIDE = {0.0: ("column", (-26, 0), "right"), math.inf: (gamma(math.inf), (-16, 0), "right")}
 APART = 8  # %: least distance of two labels
@@ -20,14 +33,13 @@ def first_visit(above, below, order):
     above.tick_params(labelbottom=False)
     above.set(ylabel=r"$\ddot{u}_g$ (g)", xlim=(begin, end))
     below.axhspan(0, 1, color=PALE, linewidth=0)
-    for (ratio, run), colour in zip(courses, shades(len(courses)), strict=True):
+    for (ratio, run), colour in shaded(courses):
         below.plot(run.time, run.rotation_over_alpha, color=colour)
         if (last := run.iloc[-1]).rotation_over_alpha < 0.2:
-            below.plot(last.time, 0.0, "o", color=colour, markerfacecolor=PAPER, markersize=3.5)
+            ring(below, last.time, 0.0, colour)
         top = run.loc[run.rotation_over_alpha.idxmax()]
         words, shift, side = BESIDE.get(ratio, (gamma(ratio), (12, 0), "left"))
-        how = {"xytext": shift, "textcoords": "offset points", "ha": side, "color": colour}
-        note(below, words, (top.time, 0.8 * top.rotation_over_alpha), **how)
+        note(below, words, (top.time, 0.8 * top.rotation_over_alpha), shift, ha=side, color=colour)
     most = order.rotation_over_alpha.max()
     below.set(xlabel="Time (s)", ylabel=r"$|\theta|/\alpha$ (–)", ylim=(0, most))
 
@@ -38,12 +50,12 @@ def velocities(axis, rows):
     places = range(len(ratios))
     for name, words in FIRST.items():
         axis.plot(places, 100 * rows[name], "o-", color=INK, markersize=2.5, linewidth=0.8)
-        how = {"xytext": (0, 6), "textcoords": "offset points", "ha": "center"}
-        note(axis, words, (0.25, 100 * rows[name].iloc[0]), **how)
-        for at in (ratios.index(1.0), len(ratios) - 1):
-            number = 100 * rows[name].iloc[at]
-            note(axis, f"{number:.0f}" if number > 10 else f"{number:.1f}", (at, number), **how)
-    axis.set_xticks(places, [f"{one:g}" if one < math.inf else "∞" for one in ratios])
+        note(axis, words, (0.25, 100 * rows[name].iloc[0]), (0, 6), ha="center")
+        for place in (ratios.index(1.0), len(ratios) - 1):
+            number = 100 * rows[name].iloc[place]
+            text = f"{number:.0f}" if number > 10 else f"{number:.1f}"
+            note(axis, text, (place, number), (0, 6), ha="center")
+    axis.set_xticks(places, map(ratio_name, ratios))
     axis.set(xlabel=r"Mass ratio, $\gamma$ (–)", ylabel="Ground velocity (cm/s)", ylim=(0, 76))
 
 
@@ -51,18 +63,17 @@ def gains(axis, visits):
     """Draw the gain of each frame over the number of visits; dashed, with a lower √r of columns."""
     frames = visits[visits.mass_ratio >= 0.5].groupby("mass_ratio")
     place = -math.inf
-    for (ratio, line), colour in zip(frames, shades(len(frames) + 1)[1:], strict=True):
+    for (ratio, line), colour in shaded([None, *frames])[1:]:
         finite, limit = line[line.visits < math.inf], line[line.visits == math.inf].iloc[0]
         axis.plot(finite.visits, 100 * finite.gain, color=colour)
-        how = {"xytext": (3, 0), "textcoords": "offset points", "color": colour}
         words = f"{gamma(ratio)}: {100 * limit.gain:.0f} %"
         place = max(place + APART, 100 * limit.gain)
-        note(axis, words, (finite.visits.max(), place), **how)
+        note(axis, words, (finite.visits.max(), place), (3, 0), color=colour)
         if ratio == 1.0:
             lower = 100 * finite.gain_if_lower
-            axis.plot(finite.visits, lower, color=colour, linestyle=(0, (4, 2)))
+            axis.plot(finite.visits, lower, color=colour, linestyle=DASHED)
             end = f"{100 * limit.gain_if_lower:.0f} %".replace("-", "−")
-            note(axis, end, (finite.visits.max(), lower.iloc[-1]), **how)
+            note(axis, end, (finite.visits.max(), lower.iloc[-1]), (3, 0), color=colour)
     axis.axhline(0, color=GREY, linewidth=0.6)
     axis.set_xscale("log")
     axis.set_xticks([1, 10, 100], ["1", "10", "100"])

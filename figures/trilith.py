@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from palette import AT_ONCE, ROCKS, SURVIVES
 
-from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
+from replication.drawing import DASHED, DOUBLE, GREY, INK, letter, note, sheet
 
 LEADER = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 2}
 
@@ -36,7 +36,7 @@ def plane(axis, cells, thresholds):
     note(axis, "stays\nat rest", (1.2, 8.5))
     note(axis, "rocks", (5.0, 9.0), color=SURVIVES)
     note(axis, "overturns", (8.2, 17))
-    note(axis, "uplift", (2.2, 16.0), xytext=(3, 0), textcoords="offset points")
+    note(axis, "uplift", (2.2, 16.0), (3, 0))
     axis.set(xlim=along[[0, -1]], ylim=(grid.index[0] - 0.25, highest + 0.25))
     axis.set(xticks=range(1, int(along[-1]) + 1), yticks=range(5, int(highest) + 1, 5))
     axis.set(xlabel="Frequency of the shake table (Hz)", ylabel="Amplitude of the shake table (mm)")
@@ -47,7 +47,7 @@ def histories(axis, runs, steady):
     axis.plot(runs.time, runs.abrupt, color=SURVIVES, linewidth=0.8)
     axis.plot(runs.time, runs.smooth, color=INK, linewidth=1.6)
     for level in (-steady, steady):
-        axis.axhline(level, color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
+        axis.axhline(level, color=GREY, linewidth=0.7, linestyle=DASHED)
     note(axis, "table at full speed at once: keeps rocking", (1.6, 0.108), color=SURVIVES)
     words = f"steady amplitude {steady:.3f}$\\,\\alpha$"
     note(axis, words, (runs.time.max() - 0.1, 0.08), ha="right", color=GREY)

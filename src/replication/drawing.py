@@ -2,7 +2,7 @@
 
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 from xml.sax.saxutils import escape
 
@@ -19,6 +19,8 @@ SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 
 # Ink and greys for what has no meaning of its own, and one hue by lightness.
 INK, GREY, PALE, PAPER = "#1a1a1a", "#737373", "#f2f2f2", "#ffffff"
+DASHED = (0, (4, 2))
+STROKES = ["-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 1.2, 1.2, 1.2))]  # told apart without colour
 LIGHTEST, DARKEST = (0.36, 0.58, 0.80), (0.02, 0.12, 0.32)  # 3 to 1 on white, and more
 
 PULSES = {
@@ -83,6 +85,13 @@ def sheet(width: float, height: float, mosaic: str = "", **grid) -> tuple[Figure
     return plt.subplots(figsize=size, **grid)
 
 
+def beside(width: float, height: float, shares: Sequence[float]) -> tuple[Figure, list[Axes]]:
+    """Return a figure of a size in mm, and its panels in a row, each laid out by itself."""
+    figure = plt.figure(figsize=(width / 25.4, height / 25.4))
+    parts = figure.subfigures(1, len(shares), width_ratios=shares)
+    return figure, [part.subplots() for part in parts]
+
+
 def shades(
     count: int,
     lightest: tuple[float, float, float] = LIGHTEST,
@@ -100,9 +109,38 @@ def letter(axes: Sequence[Axes], titles: Sequence[str]) -> None:
         axis.set_title(f"({mark}) {title}")
 
 
-def note(axis: Axes, text: str, at: tuple[float, float], **how) -> None:
-    """Write a label at a point of the data, in the label's colour and place."""
-    axis.annotate(text, at, **{"fontsize": 7.5, "va": "center"} | how)
+def note(
+    axis: Axes, text: str, place: tuple[float, float], aside: tuple[float, float] = (), **look
+) -> None:
+    """Write a label at a point of the data, or beside it by an offset in points."""
+    if aside:
+        look |= {"xytext": aside, "textcoords": "offset points"}
+    axis.annotate(text, place, **{"fontsize": 7.5, "va": "center"} | look)
+
+
+def ring(axis: Axes, x: Any, y: Any, colour: Any = INK, size: float = 3.5, **look) -> None:
+    """Draw open circles."""
+    how = {"color": colour, "markerfacecolor": PAPER, "markersize": size}
+    axis.plot(x, y, "o", **how | look)
+
+
+def logarithmic(axis: Axes, ticks: Sequence[float], name: str = "x") -> None:
+    """Scale the x or y of a panel by the logarithm, with ticks at some numbers alone."""
+    axis.set(**{f"{name}scale": "log"})
+    side = axis.xaxis if name == "x" else axis.yaxis
+    side.set_ticks(ticks, [f"{tick:g}" for tick in ticks])
+    side.set_ticks([], minor=True)
+
+
+def shaded(levels: Iterable[Any]) -> list[tuple[Any, tuple[float, float, float]]]:
+    """Return each level with its colour, the later the darker."""
+    levels = list(levels)
+    return list(zip(levels, shades(len(levels)), strict=True))
+
+
+def ratio_name(value: float) -> str:
+    """Return a mass ratio as an axis shows it."""
+    return "∞" if math.isinf(value) else f"{value:g}"
 
 
 def gamma(value: float) -> str:
