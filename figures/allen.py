@@ -2,16 +2,26 @@
 
 from palette import MODEL
 
-from replication.drawing import DOUBLE, GREY, INK, gamma, letter, note, sheet
+from replication.drawing import (
+    DASHED,
+    DOUBLE,
+    GREY,
+    INK,
+    PAPER,
+    gamma,
+    letter,
+    logarithmic,
+    note,
+    sheet,
+)
 
-MODELS = {  # the simplifications of Allen et al. (1986), one at a time and together
-    "linearised": "linearised",
-    "massless frequency": r"$\hat{p}$ for $\gamma\to\infty$",
-    "massless restitution": r"$\sqrt{r}$ for $\gamma\to\infty$",
-    "all": "all three: Allen et al.",
+MODELS = {  # the simplifications of Allen et al. (1986): words, line, face of the markers
+    "all": ("all three: Allen et al.", "-", MODEL),
+    "massless frequency": (r"mass neglected in $\hat{p}$", ":", INK),
+    "massless restitution": (r"mass neglected in $\sqrt{r}$", (0, (5, 1, 1, 1)), INK),
+    "linearised": ("linearised", DASHED, PAPER),
 }
 MOTIONS = {"pulse": "One-sine pulse", "record": "El Centro 1940, scaled"}
-LINES = dict(zip(MODELS, ((0, (4, 2)), ":", (0, (5, 1, 1, 1)), "-"), strict=True))
 
 
 def history(above, below, run):
@@ -34,31 +44,25 @@ def errors(axis, table):
     """Draw the median error over γ under the first pulse, of each simplification and of all."""
     pulse = ["shape", "frequency_ratio"]
     quoted = table[(table[pulse] == table[pulse].iloc[0]).all(axis=1)]
-    for model, line in quoted.groupby("model"):
-        whole = model == "all"
-        look = {"linestyle": LINES[model], "color": MODEL if whole else INK, "zorder": 2 + whole}
+    for model, (words, dash, face) in MODELS.items():
+        line = quoted[quoted.model == model]
+        look = {"color": MODEL if model == "all" else INK, "markerfacecolor": face}
+        size = 5 if face == PAPER else 3  # of two lines on each other both are seen
         axis.plot(
             line.mass_ratio,
             100 * line.median_error,
             marker="o",
-            markersize=3,
-            label=MODELS[model],
+            markersize=size,
+            linestyle=dash,
+            label=words,
             **look,
+            zorder=3 - (face == PAPER),
         )
-        if whole:
-            for row in line.iloc[[0, len(line) // 2, -1]].itertuples():
-                at = (row.mass_ratio, 100 * row.median_error)
-                note(
-                    axis,
-                    f"{at[1]:.0f} %",
-                    at,
-                    xytext=(5, 5),
-                    textcoords="offset points",
-                    color=MODEL,
-                )
-    axis.set_xscale("log")
-    axis.set_xticks(ticks := sorted(table.mass_ratio.unique()), [f"{tick:g}" for tick in ticks])
-    axis.set_xticks([], minor=True)
+    whole = quoted[quoted.model == "all"]
+    for row in whole.iloc[[0, len(whole) // 2, -1]].itertuples():
+        error = 100 * row.median_error
+        note(axis, f"{error:.0f} %", (row.mass_ratio, error), (5, 5), color=MODEL)
+    logarithmic(axis, sorted(table.mass_ratio.unique()))
     axis.set(xlabel=r"Mass ratio, $\gamma$ (–)", ylabel="Error of the peak (%)", ylim=(0, 30))
     axis.legend(loc="upper right", labelspacing=0.2)
 

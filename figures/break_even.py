@@ -21,24 +21,25 @@ def draw(break_even, break_even_benefit, config):
     keys = [*dict.fromkeys(key[1:] for key in rows.index)]  # from the lowest row upwards
     keys.sort(key=lambda key: (key[0] != "column alone", key[0] != "both", -key[1]))
     for name, (marker, off) in SETS.items():
-        for at, key in enumerate(keys):
+        look = {"color": INK, "markerfacecolor": INK if marker == "o" else PAPER, "markersize": 4}
+        for place, key in enumerate(keys):
             row = 100 * rows.loc[(name, *key), ["benefit", "benefit_low", "benefit_high"]]
-            axes[0].hlines(at + off, row.benefit_low, row.benefit_high, color=INK, linewidth=1.1)
-            face = INK if marker == "o" else PAPER
-            label = name if at == 0 else None
-            how = {"color": INK, "markerfacecolor": face, "markersize": 4, "label": label}
-            axes[0].plot(row.benefit, at + off, marker, **how)
-        of = break_even[break_even.set == name]
-        places = [at - off for at in range(len(of))]
-        errors = 100 * (of.end - of.end_low), 100 * (of.end_high - of.end)
-        how = {"color": INK, "markerfacecolor": face, "markersize": 4, "elinewidth": 1.1}
-        axes[1].errorbar(places, 100 * of.end, yerr=errors, fmt=marker, **how)
+            axes[0].hlines(place + off, row.benefit_low, row.benefit_high, color=INK, linewidth=1.1)
+            label = None if place else name
+            axes[0].plot(row.benefit, place + off, marker, **look, label=label)
+        ends = 100 * break_even.loc[break_even.set == name, ["end", "end_low", "end_high"]]
+        places = [place - off for place in range(len(ends))]
+        errors = ends.end - ends.end_low, ends.end_high - ends.end
+        axes[1].errorbar(places, ends.end, yerr=errors, fmt=marker, **look, elinewidth=1.1)
     low, high = (100 * share for share in config["break_even"]["measured"])
     column = Column(**config["structures"][config["motions"]["structure"]])
     lossless = 100 * (1 - 1 / column.restitution)
-    for ends, text in (((low, high), "lower"), ((lossless, 0.0), "higher")):
-        axes[1].axhspan(*ends, color=tint(GREY, 0.25), lw=0)
-        note(axes[1], f"measured: {text}", (1.5, sum(ends) / 2), ha="center", fontsize=7)
+    axes[1].axhspan(low, high, color=tint(GREY, 0.25), lw=0)
+    note(axes[1], "measured: lower", (1.5, (low + high) / 2), ha="center", fontsize=7)
+    axes[1].axhline(0.0, color=GREY, linewidth=0.7)
+    note(axes[1], "measured: higher", (1.5, lossless / 2), ha="center", fontsize=7)
+    arrow = {"arrowstyle": "->", "color": GREY, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0}
+    axes[1].annotate("", (2.3, lossless), (2.3, 0.0), arrowprops=arrow)
     note(axes[1], "above a point: column safer", (1.5, 13.5), color=ALONE, ha="center")
     note(axes[1], "below a point: frame safer", (1.5, 1.2), color=EQUAL, ha="center")
     axes[0].axvline(0.0, color=GREY, linewidth=0.7)
@@ -49,7 +50,7 @@ def draw(break_even, break_even_benefit, config):
     axes[0].set_yticks(range(len(keys)), [words(*key) for key in keys])
     axes[0].tick_params(axis="y", length=0)
     velocities = sorted(break_even.velocity.unique())
-    axes[1].set_xticks(range(len(velocities)), [f"{each:g}" for each in velocities])
+    axes[1].set_xticks(range(len(velocities)), [f"{velocity:g}" for velocity in velocities])
     axes[1].set(xlim=(-0.5, len(velocities) - 0.5), ylim=(lossless - 0.5, 14.5))
     axes[1].set_xlabel("Peak ground velocity (m/s)")
     axes[1].set_ylabel(r"Reduction of the column's $\sqrt{r}$ (%)")

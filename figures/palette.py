@@ -24,6 +24,7 @@ ROCKS = tint(SURVIVES, 0.2)  # areas in which it rocks and survives
 
 # What a cap beam, or a heavier one, does to the outcome.
 PREVENTED, CAUSED = "#c79a0a", "#a3195b"
+PREVENTS = "#876600"  # words of the first, 5 to 1 on white
 
 # What is compared with what.
 MODEL = "#6a3d9a"  # simplified models: linearised, columns without mass

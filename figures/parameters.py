@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, gamma, letter, note, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, gamma, letter, note, ring, shaded, sheet
 
-ASIDE = {"textcoords": "offset points"}
 LEADER = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 0}
 FORMULAS = (  # γ and slenderness of a curve, its formula, and where that is written
     (0.0, 30.0, "Housner, solitary column:\n$1-\\frac{3}{2}\\sin^2\\alpha$", (30, 0.86)),
@@ -21,21 +20,21 @@ def over_mass_ratio(axis, table):
     end = finite.mass_ratio.max()
     for column, (name, limit, above) in RATIOS.items():
         axis.axhline(last[column], color=GREY, linestyle=":", linewidth=0.9)
-        note(axis, limit, (end, last[column]), xytext=(0, above), ha="right", color=GREY, **ASIDE)
+        note(axis, limit, (end, last[column]), (0, above), ha="right", color=GREY)
         axis.plot(finite.mass_ratio, finite[column], color=INK)
         reached = np.interp(1.0, finite.mass_ratio, finite[column])
-        axis.plot(1.0, reached, "o", color=INK, markerfacecolor=PAPER, markersize=4, zorder=3)
-        below = {"xytext": (6, -8 if column == "size_ratio" else 8), **ASIDE}
-        note(axis, f"{name} = {reached:.2f} at $\\gamma$ = 1", (1.0, reached), **below)
+        ring(axis, 1.0, reached, size=4, zorder=3)
+        aside = (6, -8 if column == "size_ratio" else 8)
+        note(axis, f"{name} = {reached:.2f} at $\\gamma$ = 1", (1.0, reached), aside)
     axis.plot(0, 1, "o", color=INK, markersize=3.5, clip_on=False, zorder=3)
-    note(axis, "solitary column", (0, 1), xytext=(9, 0), **ASIDE)
+    note(axis, "solitary column", (0, 1), (9, 0))
     axis.set(xlim=(0, end), ylim=(0.75, 1.58), xlabel=r"Mass ratio, $\gamma$ (–)")
     axis.set_ylabel("Frame over column (–)")
 
 
 def over_slenderness(axis, table):
     curves = table.groupby("mass_ratio")
-    for (mass_ratio, curve), colour in zip(curves, shades(len(curves)), strict=True):
+    for (mass_ratio, curve), colour in shaded(curves):
         rocks = curve[curve.restitution >= 0.0]
         axis.plot(curve.slenderness_deg, curve.restitution, ":", color=colour, linewidth=0.9)
         axis.plot(rocks.slenderness_deg, rocks.restitution, color=colour, label=gamma(mass_ratio))
@@ -43,13 +42,13 @@ def over_slenderness(axis, table):
             end = np.interp(0.0, -curve.restitution, curve.slenderness_deg)
             axis.plot(end, 0, "o", color=colour, markersize=3.5, zorder=3)
             aside = (2, 8) if mass_ratio == 0.0 else (-18, -8)
-            note(axis, f"{end:.1f}°", (end, 0), xytext=aside, **ASIDE)
+            note(axis, f"{end:.1f}°", (end, 0), aside)
     axis.axhline(0, color=GREY, linewidth=0.6)
-    for mass_ratio, slenderness, words, at in FORMULAS:
+    for mass_ratio, slenderness, words, place in FORMULAS:
         curve = curves.get_group(mass_ratio)
         tip = (slenderness, np.interp(slenderness, curve.slenderness_deg, curve.restitution))
-        axis.annotate(words, tip, at, fontsize=7.5, va="center", arrowprops=LEADER)
-    axis.legend(loc="lower left", labelspacing=0.2)
+        axis.annotate(words, tip, place, fontsize=7.5, va="center", arrowprops=LEADER)
+    axis.legend(loc="lower left", ncols=2, labelspacing=0.2)
     axis.set(xlabel=r"Slenderness, $\alpha$ (°)", xlim=(0, 60), ylim=(-0.52, 1.03))
     axis.set_ylabel(r"Coefficient of restitution, $\sqrt{r}$ (–)")
 

@@ -1,71 +1,76 @@
-"""Minimum overturning acceleration against frequency, over p of the column and over p̂ of each."""
+"""Minimum overturning acceleration against frequency, and the frame's over its column's."""
 
 import numpy as np
 
 from replication.drawing import (
+    DARKEST,
     DOUBLE,
     GREY,
-    PAPER,
     PULSES,
+    STROKES,
     gamma,
     letter,
+    logarithmic,
     note,
-    shades,
+    ring,
+    shaded,
     sheet,
 )
 
 HIGHEST = 12.0  # a/(g tan α) of the axes
 MASS_RATIOS = [0.0, 1.0, np.inf]  # 1: as heavy as both columns
-SHORT = {"one-sine": 2, "one-cosine": 3}  # order n: minima without an impact tend to (ω/p̂)ⁿ/2π
+SHOWN = {  # frequencies at which the names of lines are written, and places in points
+    "one-sine": ((8.0, 8.0, 6.0), ((4, 0), (4, 0), (-4, 6))),
+    "one-cosine": ((4.5, 3.875, 3.625), ((6, 0), (3, 8), (-6, 0))),
+}
 
 
-def slower(mass_ratio):
-    """Return p/p̂ of a frame, Eq. (23)."""
-    share = 0.5 if np.isinf(mass_ratio) else mass_ratio / (1.0 + 2.0 * mass_ratio)
-    return np.sqrt(1.0 + share)
-
-
-def panel(axis, cells, scaled):
+def minima(axis, cells, places, asides):
     """Draw a line for each γ, with an open circle where it ends within the axes."""
-    axis.set(yscale="log", xlim=(0.5, 8), ylim=(0.93, HIGHEST), xticks=(1, 2, 4, 6, 8))
-    axis.set_yticks(ticks := (1, 2, 3, 5, 10), map(str, ticks))
-    axis.set_yticks([], minor=True)
-    for mass_ratio, colour in zip(MASS_RATIOS, shades(len(MASS_RATIOS)), strict=True):
-        found = cells[cells.mass_ratio == mass_ratio].groupby("frequency_ratio").lower.min()
-        frequencies = found.index.to_numpy() * (slower(mass_ratio) if scaled else 1.0)
-        axis.plot(frequencies, found, color=colour, label=gamma(mass_ratio))
-        if found.iloc[-1] < 0.9 * HIGHEST and frequencies[-1] < axis.get_xlim()[1]:
-            how = {"color": colour, "markerfacecolor": PAPER, "markersize": 3.5}
-            axis.plot(frequencies[-1], found.iloc[-1], "o", **how)
+    for (ratio, colour), stroke, place, aside in zip(
+        shaded(MASS_RATIOS), STROKES, places, asides, strict=False
+    ):
+        lowest = cells[cells.mass_ratio == ratio].groupby("frequency_ratio").lower.min()
+        axis.plot(lowest.index, lowest, color=colour, linestyle=stroke)
+        if lowest.iloc[-1] < 0.9 * HIGHEST and lowest.index[-1] < 8:
+            ring(axis, lowest.index[-1], lowest.iloc[-1], colour)
+        level = np.interp(place, lowest.index, lowest)
+        side = "left" if aside[0] > 0 else "right"
+        note(axis, gamma(ratio), (place, level), aside, ha=side, color=colour)
+    logarithmic(axis, (1, 2, 3, 5, 10), "y")
+    axis.set(xlim=(0.5, 8), ylim=(0.93, HIGHEST), xlabel=r"Frequency, $\omega/p$ (–)")
+    axis.set_ylabel("Minimum overturning\n" + r"acceleration, $a/(g\,\tan\alpha)$ (–)")
     axis.axhline(1.0, color=GREY, linewidth=0.6)
 
 
-def without_impact(axis, cells, shape):
-    """Draw the minima without an impact over ω/p̂, which coincide, and what they tend to."""
-    at_once = cells[(cells["mode"] == "without impact") & (cells["shape"] == shape)]
-    for mass_ratio in MASS_RATIOS:
-        found = at_once[at_once.mass_ratio == mass_ratio].groupby("frequency_ratio").lower.min()
-        axis.plot(found.index * slower(mass_ratio), found, color=GREY, linewidth=0.7)
-    if shape in SHORT:
-        frequencies = np.linspace(0.5, 8.0, 61)
-        axis.plot(frequencies, frequencies ** SHORT[shape] / (2 * np.pi), ":", color=GREY)
+def ratios(axis, table, frequency):
+    """Draw the minimum of the frame with γ → ∞ over that of its column, for each pulse."""
+    axis.axhline(1.0, color=GREY, linewidth=0.6)
+    for (shape, words), stroke in zip(PULSES.items(), STROKES, strict=True):
+        rows = table[table["shape"] == shape].sort_values(frequency)
+        ratio = (rows.frame / rows.column).replace(np.inf, np.nan)
+        axis.plot(rows[frequency], ratio, color=DARKEST, linestyle=stroke, label=words)
+    axis.set(xlim=(0.5, 8), ylim=(0.8, 3), yticks=(1, 1.5, 2, 2.5, 3))
+    axis.set_ylabel("Minimum, $\\gamma=\\infty$\nover column (–)")
 
 
-def draw(spectra, config):
+def draw(spectra, spectra_collapse, config):
     slenderness = config["spectra"]["slendernesses"][1]
-    cells = spectra[np.isclose(spectra.slenderness_deg, slenderness)]
-    figure, axes = sheet(DOUBLE, 84, nrows=2, ncols=4, sharey=True)
-    for row, parameter in zip(axes, ("p", r"\hat{p}"), strict=True):
-        for axis, shape in zip(row, PULSES, strict=True):
-            panel(axis, cells[cells["shape"] == shape], parameter != "p")
-            if parameter != "p":
-                without_impact(axis, cells, shape)
-            axis.set_xlabel(f"Frequency, $\\omega/{parameter}$ (–)")
-        row[0].set_ylabel("Minimum overturning\n" + r"acceleration, $a/(g\,\tan\alpha)$ (–)")
-    letter(axes.flat, [*PULSES.values()] * 2)
-    above = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.06)}  # the line of uplift
-    axes[0, 3].legend(handlelength=1.4, labelspacing=0.2, borderaxespad=0.1, **above)
-    note(axes[0, 0], "uplift", (7.9, 1.13), color=GREY, ha="right")
-    note(axes[1, 0], "without\nimpact", (0.8, 5.6), color=GREY)
-    note(axes[1, 0], r"$(\omega/\hat{p})^2/2\pi$", (4.6, 1.35), color=GREY)
+    cells, collapse = (
+        table[np.isclose(table.slenderness_deg, slenderness)]
+        for table in (spectra, spectra_collapse)
+    )
+    figure, axes = sheet(DOUBLE, 88, nrows=2, ncols=2)
+    for axis, (shape, places) in zip(axes[0], SHOWN.items(), strict=True):
+        minima(axis, cells[cells["shape"] == shape], *places)
+    note(axes[0, 0], "uplift", (7.9, 1.1), color=GREY, ha="right")
+    lowest = cells.groupby(["shape", "frequency_ratio", "mass_ratio"]).lower.min().unstack()
+    pairs = lowest.rename(columns={0.0: "column", np.inf: "frame"}).reset_index()
+    ratios(axes[1, 0], pairs, "frequency_ratio")
+    axes[1, 0].set_xlabel(r"Frequency, $\omega/p$ (–)")
+    ratios(axes[1, 1], collapse, "ratio_to_p_hat")
+    axes[1, 1].set_xlabel(r"Frequency, $\omega/p$ of the column, $\omega/\hat{p}$ of the frame (–)")
+    axes[1, 1].legend(loc="upper left", ncols=2)
+    titles = [PULSES[shape] for shape in SHOWN]
+    letter(axes.flat, [*titles, r"Ratio at equal $\omega$", r"Ratio at equal $\omega/\hat{p}$"])
     return figure

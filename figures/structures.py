@@ -1,9 +1,22 @@
 """The paper's Fig. 1: four structures with their minima, their restoring moment and inertia."""
 
+from itertools import cycle
+
 from matplotlib.patches import Rectangle
 from palette import CAP, FIXED, FORCE, STONE
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, gamma, letter, note, shades, sheet
+from replication.drawing import (
+    DOUBLE,
+    GREY,
+    INK,
+    STROKES,
+    beside,
+    gamma,
+    letter,
+    note,
+    ring,
+    shaded,
+)
 
 # m: between structures, between axes of columns, of the cap beam
 GAP, SPAN, OVERHANG = 6.4, 5.0, 0.5
@@ -24,80 +37,79 @@ def bodies(row):
 
 
 def words(row, whole):
-    """Return what is written below a structure."""
+    """Return the text below a structure."""
     height, width = 2 * row.half_height, 2 * row.half_width
-    name = (
-        f"column\n{height:g} m × {width:g} m"
-        if row.mass_ratio == 0.0
-        else f"frame\n{gamma(row.mass_ratio)}"
-    )
-    ratio = row.equivalent_size / whole
+    name = f"column\n{height:g} m × {width:g} m"
+    if row.mass_ratio:
+        name = f"frame\n{gamma(row.mass_ratio)}"
     size = r"$\hat{R}$" if row.mass_ratio else "size"
     minimum = f"$\\mathbf{{{row.minimum_overturning:.3f}}}\\,g$"
-    return f"{name}\n{size} = {ratio:.3g}$\\,R$\n{minimum}"
+    return f"{name}\n{size} = {row.equivalent_size / whole:.3g}$\\,R$\n{minimum}"
+
+
+def centre_of_gravity(axis, x, y):
+    ring(axis, x, y, FORCE, 4.5)
+    axis.plot(x, y, ".", color=FORCE, markersize=2)
 
 
 def structures(axis, table, top):
     edge, whole = 0.0, table.equivalent_size[table.structure == "column"].iloc[0]
     for row in table.itertuples():
         parts = bodies(row)
-        middle = edge - min(left for left, *_ in parts)
+        half = -min(left for left, *_ in parts)
+        middle = edge + half
         for left, bottom, width, height, face in parts:
-            where = (middle + left, bottom)
-            axis.add_patch(
-                Rectangle(where, width, height, facecolor=face, edgecolor=INK, linewidth=0.8)
-            )
+            look = {"facecolor": face, "edgecolor": INK, "linewidth": 0.8}
+            axis.add_patch(Rectangle((middle + left, bottom), width, height, **look))
         areas = [width * height for *_, width, height, _ in parts]
         levels = [bottom + height / 2 for _, bottom, _, height, _ in parts]
-        centre = sum(a * y for a, y in zip(areas, levels, strict=True)) / sum(areas)
-        axis.plot(middle, centre, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
-        axis.plot(middle, centre, ".", color=FORCE, markersize=2)
+        moments = (area * level for area, level in zip(areas, levels, strict=True))
+        centre_of_gravity(axis, middle, sum(moments) / sum(areas))
         note(axis, words(row, whole), (middle, -0.6), ha="center", va="top")
-        edge = middle - min(left for left, *_ in parts) + GAP
-    axis.plot([-GAP, edge], [0, 0], color=INK, linewidth=1.2)
+        edge = middle + half + GAP
+    ends = -GAP / 2, edge - GAP / 2
+    axis.plot(ends, [0, 0], color=INK, linewidth=1.2)
     level = table.uplift_acceleration.iloc[0]
-    text = "minimum overturning acceleration; all uplift at $g\\,\\tan\\alpha$"
-    text = f"{text} = {level:.3f}$\\,g$"
-    note(axis, text, ((edge - GAP) / 2, -9.0), ha="center", color=GREY)
-    axis.plot(0, 11.5, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
-    axis.plot(0, 11.5, ".", color=FORCE, markersize=2)
+    text = f"minimum overturning acceleration; all uplift at $g\\,\\tan\\alpha$ = {level:.3f}$\\,g$"
+    note(axis, text, (sum(ends) / 2, -10.6), ha="center", color=GREY)
+    centre_of_gravity(axis, 0, 11.5)
     note(axis, "centre of gravity", (0.7, 11.5), color=FORCE)
-    axis.set(xlim=(-GAP, edge), ylim=(-10, top + 0.6), aspect="equal", anchor="N")
+    axis.set(xlim=ends, ylim=(-11.5, top + 0.6), aspect="equal", anchor="NW")
     axis.axis("off")
 
 
 def curves(axis, table, column):
-    """Draw a column of the table against the rotation, over its value for the column at uplift."""
-    loose = table[table.mass == "loose"].groupby("mass_ratio")
-    unit = loose.get_group(0.0)[column].max()
-    every = [*zip(loose, shades(len(loose)), strict=True)]
-    every += [(one, FIXED) for one in table[table.mass == "fixed"].groupby("mass_ratio")]
-    for (mass_ratio, curve), colour in sorted(every, key=lambda one: -one[0][1][column].max()):
-        height = curve[column] / unit
-        name = "column" if mass_ratio == 0.0 else gamma(mass_ratio)
-        name += ", fixed" if colour == FIXED else ""
-        line = [0.0, *curve.rotation_over_alpha], [0.0, *height]
-        axis.plot(*line, color=colour, label=f"{height.max():.2g}: {name}", clip_on=False)
-    axis.set(xlim=(0, 1.05), ylim=(0, None), xticks=(0, 0.5, 1))
-    axis.legend(loc="upper right", bbox_to_anchor=(1.02, 1.06), labelspacing=0.1, handlelength=1)
+    """Draw a column of the table against the rotation, over its value for the column at uplift.
+
+    The value of each structure at uplift is a tick, with the name of the structure.
+    """
+    groups = table.groupby(["mass", "mass_ratio"])
+    unit = groups.get_group(("loose", 0.0))[column].max()
+    colours = dict(shaded(sorted(table.mass_ratio[table.mass == "loose"].unique())))
+    starts = []
+    for ((mass, ratio), curve), stroke in zip(groups, cycle(STROKES[-1:] + STROKES[:-1])):
+        colour = FIXED if mass == "fixed" else colours[ratio]
+        name = gamma(ratio) if ratio else "column"
+        heights = curve[column] / unit
+        axis.plot(curve.rotation_over_alpha, heights, color=colour, linestyle=stroke)
+        starts.append((heights.max(), colour, f"fixed, {name}" if mass == "fixed" else name))
+    axis.set_yticks([0, *(start for start, *_ in starts)])
+    axis.set_yticklabels(["0", *(f"{name}:  {start:.2g}" for start, _, name in starts)])
+    for label, (_, colour, _) in zip(axis.get_yticklabels()[1:], starts, strict=True):
+        label.set_color(colour)
+    axis.set(xlim=(0, 1.03), ylim=(0, None), xticks=(0, 0.5, 1))
+    axis.set_xlabel(r"Rotation, $\theta/\alpha$ (–)")
 
 
 def draw(four_structures, moment_rotation):
     every = [part for row in four_structures.itertuples() for part in bodies(row)]
     top = max(11.5, *(bottom + height for _, bottom, _, height, _ in every))
-    tall = 66 * max(1.0, (top + 10) / 23)  # mm, so that words below a high beam keep their places
-    figure, axes = sheet(DOUBLE, tall, "ab;ac", width_ratios=(2.1, 1))
-    structures(axes["a"], four_structures, top)
-    curves(axes["b"], moment_rotation, "moment")
-    axes["b"].set_ylabel(r"$M/m_\mathrm{c}gR\,\sin\alpha$ (–)")
-    curves(axes["c"], moment_rotation, "moment_over_inertia")
-    axes["c"].set(xlabel=r"Rotation, $\theta/\alpha$ (–)", ylabel=r"$M/I\,p^2\sin\alpha$ (–)")
-    letter(
-        axes.values(),
-        [
-            "Order of stability in the paper, and minima",
-            "Restoring moment per column",
-            "Moment over inertia",
-        ],
-    )
+    tall = 62 * max(1.0, (top + 10) / 23)  # mm, so that words below a high beam keep their places
+    figure, axes = beside(DOUBLE, tall, (1.75, 0.8, 1.2))
+    structures(axes[0], four_structures, top)
+    curves(axes[1], moment_rotation, "moment")
+    axes[1].set_ylabel(r"$M/m_\mathrm{c}gR\,\sin\alpha$ (–)")
+    curves(axes[2], moment_rotation, "moment_over_inertia")
+    axes[2].set_ylabel(r"$M/I\,p^2\sin\alpha$ (–)")
+    letter(axes, ["Order in the paper, and minima", "Moment per column", "Moment over inertia"])
     return figure

@@ -2,34 +2,28 @@
 
 import math
 
-from matplotlib.offsetbox import AnnotationBbox, DrawingArea
-from matplotlib.patches import Polygon, Rectangle
+from matplotlib.patches import Polygon
 from palette import FIXED, OVERTURNED, OVERTURNS, ROCKS, SURVIVES
 
 from replication.drawing import (
     DARKEST,
+    DASHED,
     DOUBLE,
     GREY,
     INK,
     LIGHTEST,
-    PAPER,
+    beside,
     gamma,
     letter,
     note,
-    sheet,
 )
 
-PLACES = {"column": 0.0, "fixed mass": 8.4, "frame": 19.3}  # m: the middle of each
-NAMES = {
-    "column": "Column",
-    "fixed mass": "Mass fixed\nto the column",
-    "frame": "Frame: mass\ncarried freely",
-}
+PLACES = {"column": 0.0, "fixed mass": 8.2, "frame": 19.0}  # m: the middle of each
 COLOURS = {"column": LIGHTEST, "fixed mass": FIXED, "frame": DARKEST}
-ROW = 10.2  # m between the rows
-EDGES = (-5.4, 25.0)  # m: of the ground
+LABELS = {"column": (0, -6), "fixed mass": (0, -7), "frame": (0, 7)}  # points, from the ends
+ROW = 8.9  # m between the rows
+EDGES = (-5.2, 22.8)  # m: of the ground
 TINTS = {OVERTURNS: OVERTURNED, SURVIVES: ROCKS}
-LOWEST, HIGHEST = 0.13, 0.36  # g, of the axis
 
 
 def scene(axis, poses, middle, ground):
@@ -43,7 +37,7 @@ def scene(axis, poses, middle, ground):
             look = {"facecolor": colour if body == "cap" else TINTS[colour], "zorder": 3}
         axis.add_patch(Polygon(corners, edgecolor=colour, linewidth=0.7, **look))
     words = "overturns" if overturns else "survives"
-    note(axis, words, (middle, ground - 1.0), color=colour, ha="center", fontsize=8)
+    note(axis, words, (middle, ground - 0.9), color=colour, ha="center", fontsize=8)
 
 
 def motion(axis, amplitude, largest, ground):
@@ -64,58 +58,50 @@ def picture(axis, poses):
     for row, amplitude in enumerate(amplitudes):
         motion(axis, amplitude, amplitudes[-1], -ROW * row)
         for name, middle in PLACES.items():
-            of = poses[(poses.amplitude == amplitude) & (poses.structure == name)]
-            scene(axis, of, middle, -ROW * row)
+            part = poses[(poses.amplitude == amplitude) & (poses.structure == name)]
+            scene(axis, part, middle, -ROW * row)
     for name, middle in PLACES.items():
-        note(axis, NAMES[name], (middle, 8.5), ha="center", fontsize=8)
-    bottom = -ROW * (len(amplitudes) - 1)
-    axis.set(xlim=EDGES, ylim=(bottom - 1.8, 9.9), aspect="equal", anchor="W")
+        note(axis, name, (middle, 7.6), color=COLOURS[name], ha="center", fontsize=8)
+    caps = poses[poses.last & (poses.body == "cap") & (poses.structure == "frame")]
+    middle, top, left = PLACES["fixed mass"], caps.y.max(), PLACES["frame"] + caps.x.min()
+    arrow = {"arrowstyle": "<->", "color": GREY, "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+    axis.annotate("", (middle + 3.0, top), (left - 0.3, top), arrowprops=arrow)
+    words = "same mass\nper column"
+    note(axis, words, ((middle + 2.7 + left) / 2, top + 0.2), color=GREY, ha="center", va="bottom")
+    axis.set(xlim=EDGES, ylim=(-ROW * (len(amplitudes) - 1) - 1.5, 8.5), aspect="equal", anchor="W")
     axis.axis("off")
-
-
-def glyph(axis, name, at):
-    """Draw a structure at the size of a letter, its mass in colour."""
-    area, colour = DrawingArea(16, 15), COLOURS[name]
-    for left in (1, 13) if name == "frame" else (7,):
-        how = {"facecolor": PAPER, "edgecolor": colour, "linewidth": 0.7}
-        area.add_artist(Rectangle((left, 0), 2, 11, **how))
-    if name != "column":
-        left, width = (0, 16) if name == "frame" else (4, 8)
-        area.add_artist(Rectangle((left, 11), width, 3, facecolor=colour, linewidth=0))
-    axis.add_artist(AnnotationBbox(area, at, frameon=False, pad=0, box_alignment=(0.5, -0.15)))
 
 
 def minima(axis, vase, poses):
     """Draw the minimum overturning acceleration over γ, and the pulses of the picture across it."""
-    of = vase[vase["shape"] == "one-cosine"]
-    drawn_at = sorted(of.mass_ratio[of.mass_ratio < math.inf].unique())
-    limit_at, glyphs_at = math.ceil(drawn_at[-1]) + 1, drawn_at[-2]  # the place of γ → ∞; γ
-    alone = of[of.structure == "column"].minimum_overturning.iloc[0]
-    axis.plot([0.0, limit_at], [alone, alone], color=COLOURS["column"])
-    glyph(axis, "column", (glyphs_at, alone))
-    for name in ("fixed mass", "frame"):
-        line, colour = of[of.structure == name].sort_values("mass_ratio"), COLOURS[name]
+    rows = vase[vase["shape"] == "one-cosine"]
+    end = math.ceil(rows.mass_ratio[rows.mass_ratio < math.inf].max()) + 1  # the place of γ → ∞
+    start = rows[rows.structure == "column"].minimum_overturning.iloc[0]
+    for name, colour in COLOURS.items():
+        line = rows[rows.structure == name].sort_values("mass_ratio")
         finite, limit = line[line.mass_ratio < math.inf], line.minimum_overturning.iloc[-1]
-        x, y = [0.0, *finite.mass_ratio], [alone, *finite.minimum_overturning]
-        axis.plot(x, y, "o-", color=colour, markersize=2.2)
-        dotted = {"color": colour, "linewidth": 0.8, "linestyle": (0, (1, 2))}
-        axis.plot([x[-1], limit_at], [y[-1], limit], **dotted)
-        axis.plot(limit_at, limit, "o", color=colour, markersize=3.2, clip_on=False)
-        glyph(axis, name, (glyphs_at, y[x.index(glyphs_at)]))
-    drawn = poses.mass_ratio.iloc[0]
-    axis.axvline(drawn, color=GREY, linewidth=0.5)
-    note(axis, f"{gamma(drawn)}, as drawn", (drawn + 0.08, LOWEST + 0.008), color=GREY)
+        x, y = [0.0, *finite.mass_ratio], [start, *finite.minimum_overturning]
+        if name == "column":
+            axis.plot([0.0, end], [start, start], color=colour)
+        else:
+            axis.plot(x, y, "o-", color=colour, markersize=2.2)
+            dotted = {"color": colour, "linewidth": 0.8, "linestyle": (0, (1, 2))}
+            axis.plot([x[-1], end], [y[-1], limit], **dotted)
+            axis.plot(end, limit, "o", color=colour, markersize=3.2, clip_on=False)
+        note(axis, name, (end, limit), LABELS[name], ha="right", color=colour)
+    ratio = poses.mass_ratio.iloc[0]
+    axis.axvline(ratio, color=GREY, linewidth=0.5)
+    note(axis, f"{gamma(ratio)}, as drawn", (ratio + 0.08, 0.02), color=GREY)
     for amplitude in poses.amplitude.unique():
-        axis.axhline(amplitude, color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
-        how = {"ha": "right", "va": "bottom", "xytext": (0, 1), "textcoords": "offset points"}
-        note(axis, f"{amplitude:g} g", (limit_at, amplitude), color=GREY, **how)
-    axis.set(xlim=(0, limit_at), ylim=(LOWEST, HIGHEST), xticks=range(limit_at + 1))
-    axis.set_xticklabels([*range(limit_at), "∞"])
+        axis.axhline(amplitude, color=GREY, linewidth=0.7, linestyle=DASHED)
+        note(axis, f"{amplitude:g} g", (end / 2, amplitude), (0, 5), ha="center", color=GREY)
+    axis.set(xlim=(0, end), ylim=(0, 0.36), xticks=range(end + 1), yticks=(0, 0.1, 0.2, 0.3))
+    axis.set_xticklabels([*range(end), "∞"])
     axis.set(xlabel=r"Mass ratio, $\gamma$ (–)", ylabel="Minimum overturning acceleration (g)")
 
 
 def draw(vase, vase_poses):
-    figure, (left, right) = sheet(DOUBLE, 68, ncols=2, width_ratios=(1.6, 1))
+    figure, (left, right) = beside(DOUBLE, 74, (1.6, 1))
     picture(left, vase_poses)
     minima(right, vase, vase_poses)
     ratio = vase_poses.mass_ratio.iloc[0]
