@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from replication.numbers import Numbers, inputs, without_marks
+from documents.quotes import Numbers
+from replication.marks import inputs, without_marks
 
 SETTINGS = {
     "vase": {"period": 1.5, "amplitude": 0.005, "mass_ratios": [0.5, 2.0, math.inf]},

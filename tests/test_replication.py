@@ -12,6 +12,7 @@ import pytest
 from replication import step
 from replication.claims import Claim, read_claims
 from replication.config import read_config, read_yaml
+from replication.digits import decimals
 from replication.sections import (
     Degrees,
     Grid,
@@ -25,7 +26,7 @@ from replication.sections import (
     StructureName,
 )
 from replication.step import truth, value
-from replication.verdicts import decimals, judged, unexpected, verdict_on
+from replication.verdicts import judged, unexpected, verdict_on
 from tests.cases import ROOT
 
 STATEMENT = {"id": "s", "where": "p. 1", "statement": "It is so.", "expected": "confirmed"}

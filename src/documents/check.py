@@ -113,21 +113,19 @@ def rewritten(
         "functions.html": lambda: functions.compute(style, records)["page"],
         "animation.gif": lambda: animation.compute(*film, style)["gif"],
     }
-    drawn = ["numbers.md", "report.pdf", "supplement.pdf", *map("{}.svg".format, publish.PICTURES)]
-    made = {name: pages[name]() for name in names or pages if name in pages}
-    if wanted := [name for name in names or drawn if name not in pages]:
+    others = ["numbers.md", "report.pdf", "supplement.pdf", *map("{}.svg".format, publish.PICTURES)]
+    contents = {name: pages[name]() for name in names or pages if name in pages}
+    if wanted := [name for name in names or others if name not in pages]:
         with tempfile.TemporaryDirectory() as folder:
-            all_of_them = remade.remade(
-                Path(folder), config, read("rules"), results, rows, REFERENCE
-            )
-        made |= {name: all_of_them[name] for name in wanted}
-    for name, content in made.items():
+            documents = remade.remade(Path(folder), config, read("rules"), results, rows, REFERENCE)
+        contents |= {name: documents[name] for name in wanted}
+    for name, content in contents.items():
         lines = (content.encode() if isinstance(content, str) else content).split(b"\n")
         shown = (DOCS / name).read_bytes().split(b"\n")
         if shown != lines:
             pairs = zip([*shown, b""], [*lines, b""], strict=False)
-            at = next((k for k, (one, other) in enumerate(pairs, 1) if one != other), len(lines))
-            yield f"{DOCS / name}, line {at}, is not what tables and sources give: {MEND}"
+            number = next((n for n, pair in enumerate(pairs, 1) if pair[0] != pair[1]), len(lines))
+            yield f"{DOCS / name}, line {number}, is not what tables and sources give: {MEND}"
 
 
 def faults(results: dict[str, dict[str, Any]]) -> Iterator[str]:

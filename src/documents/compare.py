@@ -26,11 +26,11 @@ def departures(
             yield f"{name} (only {'here' if name in ours else 'published'})"
             continue
         pair = ours[name], theirs[name]
-        is_whole = all(pd.api.types.is_integer_dtype(one) for one in pair)
+        is_whole = all(map(pd.api.types.is_integer_dtype, pair))
         relative, absolute = bounds["relative"], bounds["absolute"]
         if is_whole:
             relative, absolute = 0.0, bounds["counts"] if name in counts else 0.0
-        if name in counts and all(one.isin([0, 1]).all() for one in pair):
+        if name in counts and all(column.isin([0, 1]).all() for column in pair):
             is_few = len(ours) == len(theirs) and (pair[0] != pair[1]).sum() <= bounds["counts"]
             absolute = 1.0 if is_few else 0.0
         try:

@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from replication.numbers import Quote
-from replication.verdicts import counted, decimals
+from documents.quotes import Quote
+from replication.digits import decimals
+from replication.verdicts import counted
 
 NUMBERS = """# Numbers and their sources
 

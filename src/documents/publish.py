@@ -86,12 +86,12 @@ def main() -> None:
     finished = [Path("results/rules.json"), Path("results/settings.json"), CLAIMS]
     if missing := [path for path in finished if not path.is_file()]:
         raise SystemExit(f"there is no {missing[0]}; expected a finished run: make reproduce")
-    made = copies()
-    refuse(made)
+    targets = copies()
+    refuse(targets)
     for path in REFERENCE.rglob("*"):
-        if path.is_file() and path not in made.values():
+        if path.is_file() and path not in targets.values():
             path.unlink()
-    for source, target in made.items():
+    for source, target in targets.items():
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)
     shown.write()
@@ -100,7 +100,7 @@ def main() -> None:
     ]
     lines = [f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p}\n" for p in sums if p != SUMS]
     SUMS.write_text("".join(lines), "utf-8")
-    print(f"{len(made)} files are published; read the diff, mend README's numbers, then commit")
+    print(f"{len(targets)} files are published; read the diff, mend README's numbers, then commit")
 
 
 if __name__ == "__main__":

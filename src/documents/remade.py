@@ -32,10 +32,10 @@ def remade(
     paths = {path.stem: str(path) for path in tables.glob("*.csv")}
     captions, style = read_yaml(CAPTIONS), "figures/style.mplstyle"
     pictures = drawn(scripts, paths, {"config": config}, captions, style)
-    made = {f"{Path(s).stem}.svg": p for s, p in zip(scripts, pictures, strict=True)}
+    svgs = {f"{Path(s).stem}.svg": p for s, p in zip(scripts, pictures, strict=True)}
     shutil.copytree("paper", folder / "paper")
     shutil.copy("CITATION.cff", folder)
-    contents = {f"figures/{name}": picture for name, picture in made.items()}
+    contents = {f"figures/{name}": picture for name, picture in svgs.items()}
     contents |= {f"results/findings/{rule}.json": json.dumps(results[rule]) for rule in results}
     contents["results/claims.json"] = json.dumps(claims)
     for name in ("figures", "results/findings"):
@@ -49,4 +49,4 @@ def remade(
         pages[f"{name}.pdf"] = compiled(source, texts, str(folder), pdf_standards=["a-2b"])
         quotes += checked(source, texts, str(folder)).quotes
     run = lists.Run(claims, captions, rules, results, config, quotes, tables)
-    return made | pages | {"numbers.md": lists.numbers(run, lists.Docs())}
+    return svgs | pages | {"numbers.md": lists.numbers(run, lists.Docs())}

@@ -107,14 +107,14 @@ def of_collection(collection: Collection) -> Iterator[Look]:
 
 def texts(axes: Axes) -> list[Text]:
     """Return the texts of a panel that are not empty, but for numbers at its ticks."""
-    found = [child for child in axes.get_children() if isinstance(child, Text)]  # also titles
+    words = [child for child in axes.get_children() if isinstance(child, Text)]  # also titles
     if legend := axes.get_legend():
-        found += legend.get_texts()
+        words += legend.get_texts()
     for axis in (axes.xaxis, axes.yaxis):
-        found.append(axis.label)
+        words.append(axis.label)
         if isinstance(axis.get_major_formatter(), FixedFormatter):
-            found += axis.get_ticklabels()
-    return [text for text in found if text.get_text()]
+            words += axis.get_ticklabels()
+    return [text for text in words if text.get_text()]
 
 
 def colour(value: Any) -> str:

@@ -16,10 +16,10 @@ from typing import Any
 import mistune
 
 from documents import lists
+from documents.quotes import Quote
 from documents.typeset import NoMeaning, checked, texts_of
 from replication.config import read_yaml
 from replication.job import log_to, write
-from replication.numbers import Quote
 
 PAGES = {  # at the head of each page, by what a reader wants
     "Read": {"index.html": "Article", "supplement.html": "Supplement", "report.pdf": "PDF"},

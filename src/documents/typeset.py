@@ -7,9 +7,10 @@ from typing import Any
 import typst
 import yaml
 
+from documents.quotes import Numbers
 from replication.config import read_yaml
 from replication.job import log_to, stop, write
-from replication.numbers import Numbers, inputs
+from replication.marks import inputs
 
 
 class NoMeaning(SystemExit):

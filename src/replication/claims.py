@@ -7,7 +7,8 @@ from typing import Any, Literal
 from pydantic import StrictInt, ValidationError
 
 from replication.config import read_yaml
-from replication.numbers import inputs, print_rounding, without_marks
+from replication.digits import print_rounding
+from replication.marks import inputs, without_marks
 from replication.sections import Number, Section
 
 Verdict = Literal["confirmed", "qualified", "refuted", "supported", "by definition", "not tested"]
@@ -86,7 +87,7 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
             is_judged = claim.expected not in ("by definition", "not tested")
             if is_judged and isinstance(claim.printed, int | float):
                 claim.tolerance = print_rounding(claim.printed)
-            if claim.id in [each.id for each in claims]:
+            if claim.id in [before.id for before in claims]:
                 raise SystemExit(f"{path}: claim {claim.id}: the id is there twice")
             if bool(claim.rule and claim.finding) != is_judged:
                 raise SystemExit(

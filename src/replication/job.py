@@ -39,7 +39,7 @@ def log_to(path: str) -> Iterator[None]:
             sys.stdout, sys.stderr = kept
 
 
-def write(job: Any, made: Mapping[str, str | bytes], modules: Iterable[str] = ()) -> None:
+def write(job: Any, results: Mapping[str, str | bytes], modules: Iterable[str] = ()) -> None:
     """Write the results of a job, with their seals; Snakemake removes those of a job that fails.
 
     `modules` are the files of modules that another process loaded for this job.
@@ -64,7 +64,7 @@ def write(job: Any, made: Mapping[str, str | bytes], modules: Iterable[str] = ()
                 f"rule {job.rule} reads {path}, which its rule did not write with this code and "
                 f"these parameters: rm {path}, then run again"
             )
-    for path, content in made.items():
+    for path, content in results.items():
         Path(path).write_bytes(content.encode() if isinstance(content, str) else content)
     for path in map(str, job.output):
         write_seal(path, code[f"rule {job.rule}"])
@@ -75,16 +75,12 @@ def _refuse_undeclared(job: Any, modules: Iterable[str]) -> None:
     files = {getattr(module, "__file__", None) for module in list(sys.modules.values())}
     loaded = {Path(path).resolve() for path in {*files, *modules} if path}
     inside = {path.relative_to(ROOT) for path in loaded - declared if path.is_relative_to(ROOT)}
-    other = sorted(
-        str(p)
-        for p in loaded
-        if p.parts[-2:] == ("topheavy", "__init__.py") and not p.is_relative_to(ROOT)
-    )
-    if other:
-        stop(
-            f"rule {job.rule} loaded {other[0]}, which is not in this folder: "
-            "uv sync, or pip install -e ."
-        )
+    for path in loaded:
+        if path.parts[-2:] == ("topheavy", "__init__.py") and not path.is_relative_to(ROOT):
+            stop(
+                f"rule {job.rule} loaded {path}, which is not in this folder: "
+                "uv sync, or pip install -e ."
+            )
     if gap := sorted(str(path) for path in inside if path.parts[0] in OURS):
         stop(
             f"rule {job.rule} loaded {', '.join(gap)}, which its `code` does not name: a change "

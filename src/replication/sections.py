@@ -78,9 +78,8 @@ class Grid(Span):
 def section(shared: str = "", /, base: type[Section] = Section, **types: Any) -> Any:
     """Return the model of a section: the names of its `SHARED` entries, and the types of others."""
     entries = {name: SHARED[name] for name in shared.split()} | types
-    return create_model(
-        "Section", __base__=base, **{name: (of, ...) for name, of in entries.items()}
-    )
+    fields = {name: (kind, ...) for name, kind in entries.items()}
+    return create_model("Section", __base__=base, **fields)
 
 
 TYPES = (
@@ -120,7 +119,7 @@ TYPES = (
     (StructureName, "structure"),
     (str, "quantity source"),
 )
-SHARED = {name: of for of, names in TYPES for name in names.split()}
+SHARED = {name: kind for kind, names in TYPES for name in names.split()}
 """Entries with the same type in every section that names them by its first argument."""
 
 Cap = section("width depth")

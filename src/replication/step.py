@@ -38,14 +38,12 @@ def run(job: Any, compute: Callable, findings: Callable | None = None) -> None:
     """
     with log_to(job.log[0]):
         params = {name: content for name, content in job.params.items() if name != "code"}
-        made = call(compute, job.rule, tables_of(job.input), params)
-        names = [name for name, _ in job.output.items() if name != "findings"]
-        if not isinstance(made, Mapping) or not set(names) <= set(made):
-            made = dict.fromkeys(names, made) if len(names) == 1 else {}
+        content = call(compute, job.rule, tables_of(job.input), params)
+        paths = {name: path for name, path in job.output.items() if name != "findings"}
+        if not isinstance(content, Mapping) or not set(paths) <= set(content):
+            content = dict.fromkeys(paths, content) if len(paths) == 1 else {}
         texts = {
-            path: _text(made.get(name), path, compute, job.rule)
-            for name, path in job.output.items()
-            if name != "findings"
+            path: _text(content.get(name), path, compute, job.rule) for name, path in paths.items()
         }
         if hasattr(job.output, "findings"):
             written = {
@@ -105,7 +103,7 @@ def call(
 
     def content(source: Any) -> Any:
         if isinstance(source, list):
-            return [content(each) for each in source]
+            return [content(part) for part in source]
         if isinstance(source, StringIO):
             source.seek(0)
             return pd.read_csv(source)
@@ -156,22 +154,22 @@ def where(function: Callable) -> str:
     return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
 
 
-def _text(made: Any, path: str, compute: Callable, rule: str) -> str | bytes:
-    if isinstance(made, str | bytes) and not path.endswith(".csv"):
-        return made
-    columns = made.values() if isinstance(made, Mapping) else []
-    if made is None or isinstance(made, str) or any(isinstance(one, Mapping) for one in columns):
+def _text(table: Any, path: str, compute: Callable, rule: str) -> str | bytes:
+    if isinstance(table, str | bytes) and not path.endswith(".csv"):
+        return table
+    parts = table.values() if isinstance(table, Mapping) else []
+    if table is None or isinstance(table, str) or any(isinstance(part, Mapping) for part in parts):
         stop(
-            f"{where(compute)}: compute returned {made!r:.60} where rule {rule} declares the table "
-            f"{path}. Return a pandas.DataFrame; findings(table) draws the findings from it"
+            f"{where(compute)}: compute returned {table!r:.60} where rule {rule} declares the "
+            f"table {path}. Return a pandas.DataFrame; findings(table) draws the findings from it"
         )
-    return pd.DataFrame(made).to_csv(index=False, float_format=DIGITS, lineterminator="\n")
+    return pd.DataFrame(table).to_csv(index=False, float_format=DIGITS, lineterminator="\n")
 
 
 def _plain(item: Any) -> Any:
     """Return NumPy's numbers and arrays, also inside of mappings and lists, as Python's."""
     if isinstance(item, Mapping):
-        return {key: _plain(each) for key, each in item.items()}
+        return {key: _plain(part) for key, part in item.items()}
     if isinstance(item, list | tuple):
-        return [_plain(each) for each in item]
+        return [_plain(part) for part in item]
     return item.tolist() if hasattr(item, "tolist") else item

@@ -1,14 +1,13 @@
 """Compute the verdict on a claim from its finding. Nobody confirms a claim by hand."""
 
 import json
-import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from decimal import Decimal
 from pathlib import Path
 from typing import Any, get_args
 
 from replication.claims import Claim, Verdict
+from replication.digits import decimals
 
 TITLES = {"paper": "claims of the paper", "ours": "claims of our own"}
 
@@ -150,47 +149,3 @@ def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:
 
 def _verdict(row: Mapping[str, Any], verdict: str, differs: str) -> str:
     return row[verdict] + (f" (our copy differs: {row[differs]})" if row.get(differs) else "")
-
-
-# The digits of a number in print ------------------------------------------------------------------
-
-MOST_FIGURES = 6
-"""A number that is compared with no printed one has at most so many significant figures."""
-
-MOST_DECIMALS = 17
-
-
-def decimals(
-    value: float, error: float, printed: Any = None, tolerance: float | None = None
-) -> str:
-    """Return a computed number in decimals: to a tenth of a tolerance, or as its error justifies.
-
-    Beside a printed number it has more digits where fewer would round an agreement away, or feign
-    one. A whole number beside a whole one stays one.
-    """
-    if tolerance is None or not isinstance(printed, int | float):
-        return _by_error(value, error)
-    if isinstance(printed, int) and float(value).is_integer():
-        return f"{value:.0f}"
-    agrees = abs(value - printed) <= tolerance
-    allowed = Decimal(repr(tolerance))
-    for digits in range(_decimals(0.1 * tolerance), MOST_DECIMALS):
-        text = f"{value:.{digits}f}"
-        off = abs(Decimal(text) - Decimal(repr(printed)))
-        if off < allowed if agrees else off > allowed:
-            break
-    return text
-
-
-def _by_error(value: float, error: float) -> str:
-    magnitude = math.floor(math.log10(abs(value))) if value else 0
-    most = max(0, MOST_FIGURES - 1 - magnitude)
-    if error and (justified := _decimals(error)) < most:
-        return f"{value:.{justified}f}"
-    text = f"{value:.{most}f}"
-    return text.rstrip("0").rstrip(".") if "." in text else text
-
-
-def _decimals(error: float) -> int:
-    """Return the decimals that round a number by an error at most."""
-    return max(0, math.ceil(-math.log10(2.0 * error) - 1e-9))

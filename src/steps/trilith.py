@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from replication.numbers import print_rounding
+from replication.digits import print_rounding
 from replication.step import check, grid, run, truth, value
 from steps.shared import plain
 from steps.shared.samples import check_histories
