@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from documents import lists
-from documents.draw import drawn
+from documents.draw import pictures, scripts_of_figures
 from documents.typeset import checked, compiled, texts_of
 from replication.config import read_yaml
 
@@ -24,15 +24,11 @@ def remade(
 ) -> dict[str, str | bytes]:
     """Return pictures and documents by name; `folder` becomes the root of the documents."""
     results = json.loads(json.dumps(results))  # as the files of a run have them
-    scripts = [
-        str(path)
-        for path in sorted(Path("figures").glob("*.py"))
-        if "\ndef draw(" in path.read_text("utf-8")
-    ]
+    scripts = scripts_of_figures()
     paths = {path.stem: str(path) for path in tables.glob("*.csv")}
     captions, style = read_yaml(CAPTIONS), "figures/style.mplstyle"
-    pictures = drawn(scripts, paths, {"config": config}, captions, style)
-    svgs = {f"{Path(s).stem}.svg": p for s, p in zip(scripts, pictures, strict=True)}
+    drawings = pictures(scripts, paths, {"config": config}, captions, style)
+    svgs = {f"{Path(s).stem}.svg": svg for s, svg in zip(scripts, drawings, strict=True)}
     shutil.copytree("paper", folder / "paper")
     shutil.copy("CITATION.cff", folder)
     contents = {f"figures/{name}": picture for name, picture in svgs.items()}

@@ -6,8 +6,6 @@ compare. Look at a figure that you have changed before you commit the new rows.
 """
 
 import math
-import runpy
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -25,11 +23,10 @@ from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FixedFormatter
 
 from documents.check import REFERENCE
+from documents.draw import figure_of, scripts_of_figures
 from replication.config import read_config
 from replication.sections import Paper
-from replication.step import call
 
-SCRIPTS = Path("figures")
 TABLE = REFERENCE / "figures.csv"
 NOWHERE = (math.nan, math.nan)
 Look = tuple[str, np.ndarray]  # with its points
@@ -37,19 +34,15 @@ Look = tuple[str, np.ndarray]  # with its points
 
 def names() -> list[str]:
     """Return the figures, each by the name of its script."""
-    scripts = sorted(SCRIPTS.glob("*.py"))
-    return [path.stem for path in scripts if "\ndef draw(" in path.read_text("utf-8")]
+    return [Path(script).stem for script in scripts_of_figures()]
 
 
 def drawn(name: str) -> Figure:
     """Return a figure, drawn from the published tables."""
-    if str(SCRIPTS) not in sys.path:
-        sys.path.insert(0, str(SCRIPTS))  # palette.py
-    draw = runpy.run_path(str(SCRIPTS / f"{name}.py"))["draw"]
     tables = {path.stem: str(path) for path in REFERENCE.glob("*.csv")}
     config = read_config("config/config.yaml", Paper)
-    with mpl.rc_context(fname=SCRIPTS / "style.mplstyle"):
-        figure = call(draw, name, tables, {"config": config})
+    with mpl.rc_context(fname="figures/style.mplstyle"):
+        figure = figure_of(f"figures/{name}.py", tables, {"config": config})
     plt.close(figure)
     return figure
 
