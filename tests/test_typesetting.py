@@ -4,11 +4,13 @@ import json
 import math
 import shutil
 from copy import deepcopy
+from functools import cache
 
 import pandas as pd
 import pytest
 
 from documents import check
+from documents.stated import unsaid
 from documents.typeset import checked, texts_of
 from tests.cases import CONFIG, ROOT, published
 
@@ -33,6 +35,11 @@ def typeset(folder, document, config=CONFIG):
     captions = str(ROOT / "figures/captions.yaml")
     texts = texts_of(config, captions)
     return checked(DOCUMENTS[document], texts, str(folder))
+
+
+@cache
+def page_of_report(folder):
+    return typeset(folder, "report").html
 
 
 def without(table, column, value):
@@ -76,6 +83,21 @@ def test_a_number_that_is_typed_into_a_sentence_is_named_with_it(folder, tmp_pat
     path.write_text(text.replace("\n= Limits", "\nIt takes 12.3~s. Then it stops.\n\n= Limits"))
     with pytest.raises(SystemExit, match=r"12\.3 in: It takes 12\.3 s\.$"):
         typeset(tmp_path, "report")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("raises the median", "lowers the median", "as both columns raises the"),
+        ("it was shaken below", "it was shaken beyond", "it was shaken below uplift"),
+        ("No test of", "7 tests of", ": 7 of the abstract"),
+    ],
+)
+def test_abstract_says_what_the_audit_computes(folder, old, new, named):
+    html = page_of_report(folder)
+    assert not [*unsaid(html)]
+    assert old in html
+    assert any(named in line for line in unsaid(html.replace(old, new)))
 
 
 @pytest.mark.sampled(3)

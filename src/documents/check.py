@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from documents.stated import misstated
+from documents.stated import misstated, unsaid
 from replication.claims import read_claims
 from replication.config import components, read_config, read_yaml
 from replication.sections import Paper
@@ -119,6 +119,7 @@ def rewritten(
         with tempfile.TemporaryDirectory() as folder:
             documents = remade.remade(Path(folder), config, read("rules"), results, rows, REFERENCE)
         contents |= {name: documents[name] for name in wanted}
+        yield from unsaid(documents["report.html"])
     for name, content in contents.items():
         lines = (content.encode() if isinstance(content, str) else content).split(b"\n")
         shown = (DOCS / name).read_bytes().split(b"\n")

@@ -43,6 +43,8 @@ def remade(
     for name in ("report", "supplement"):
         source = f"paper/{name}.typ"
         pages[f"{name}.pdf"] = compiled(source, texts, str(folder), pdf_standards=["a-2b"])
-        quotes += checked(source, texts, str(folder)).quotes
+        page = checked(source, texts, str(folder))
+        pages[f"{name}.html"] = page.html
+        quotes += page.quotes
     run = lists.Run(claims, captions, rules, results, config, quotes, tables)
     return svgs | pages | {"numbers.md": lists.numbers(run, lists.Docs())}

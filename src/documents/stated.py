@@ -2,12 +2,15 @@
 
 import re
 import tomllib
+import unicodedata
 from collections.abc import Iterator, Mapping
 from hashlib import sha256
+from html import unescape
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
+from audit import ABSTRACT, NUMBER, not_covered
 from replication.config import read_yaml
 from topheavy import read_record
 
@@ -35,6 +38,18 @@ def misstated(results: Mapping[str, Any]) -> Iterator[str]:
         text = Path(path).read_text("utf-8").partition("The topheavy developers\n")[2]
         if sha256(text.encode()).hexdigest() != digest:
             yield f"{path}: another text of the licence: git checkout {path}"
+
+
+def unsaid(html: str) -> Iterator[str]:
+    """Yield what src/audit.py computes and the abstract does not say, and numbers beside it."""
+    abstract = re.search('(?s)<div class="abstract".*?</div>', html)[0]
+    plain = unicodedata.normalize("NFKC", unescape(re.sub("<[^>]*>", "", abstract)))
+    text = " ".join(plain.split())
+    for sentence in ABSTRACT.values():
+        if not re.search(sentence.replace("#", NUMBER), text):
+            yield f"paper/report.typ: the abstract does not say what src/audit.py has: {sentence}"
+    for number in not_covered(text.partition("Are they?")[2], ABSTRACT.values()):
+        yield f"paper/report.typ: {number} of the abstract is in no sentence of src/audit.py"
 
 
 def links(text: str, results: Mapping[str, Any]) -> Iterator[str]:
