@@ -111,4 +111,4 @@ def test_two_turns_within_a_step_are_seen(start, impacts):
 
 def test_each_sentence_of_the_abstract_is_computed():
     source = AUDIT.read_text(encoding="utf-8")
-    assert all(f'compare_words("{name}"' in source for name in solver.ABSTRACT)
+    assert all(f'compare_abstract("{name}"' in source for name in solver.ABSTRACT)
