@@ -1,19 +1,8 @@
 """The model of Allen et al. beside the exact frame: histories and error of the peak."""
 
-from palette import MODEL
+from palette import GREY, INK, MODEL, PAPER
 
-from replication.drawing import (
-    DASHED,
-    DOUBLE,
-    GREY,
-    INK,
-    PAPER,
-    gamma,
-    letter,
-    logarithmic,
-    note,
-    sheet,
-)
+from replication.drawing import DASHED, DOUBLE, gamma, letter, logarithmic, note, sheet
 
 MODELS = {  # the simplifications of Allen et al. (1986): words, line, face of the markers
     "all": ("all three: Allen et al.", "-", MODEL),

@@ -2,9 +2,9 @@
 
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
-from palette import CONSERVATIVE, MODEL, OVERTURNED
+from palette import CONSERVATIVE, MODEL, OVERTURNED, PAPER
 
-from replication.drawing import DOUBLE, PAPER, letter, note, sheet
+from replication.drawing import DOUBLE, letter, note, sheet
 
 OUTCOMES = {  # by twice the outcome of the exact frame and once that of the model
     "both survive": PAPER,

@@ -1,8 +1,8 @@
 """Probability of overturning and the coefficient of restitution that ends the benefit"""
 
-from palette import ALONE, EQUAL, tint
+from palette import ALONE, EQUAL, GREY, INK, PAPER, tint
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, sheet
+from replication.drawing import DOUBLE, letter, note, sheet
 from topheavy import Column
 
 SETS = {"near-fault": ("o", 0.14), "broadband": ("s", -0.14)}  # marker, and place in a row

@@ -4,9 +4,9 @@ import math
 from itertools import pairwise
 
 import numpy as np
-from palette import CAUSED
+from palette import CAUSED, INK
 
-from replication.drawing import DOUBLE, INK, gamma, letter, note, ring, shaded, sheet
+from replication.drawing import DOUBLE, gamma, letter, note, ring, shaded, sheet
 
 RANGE = 1.4, 2.6  # of a/(g tan α)
 

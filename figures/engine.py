@@ -1,6 +1,8 @@
 """Frames across their plane in a rigid-body engine."""
 
-from replication.drawing import GREY, SINGLE, gamma, note, shaded, sheet
+from palette import GREY
+
+from replication.drawing import SINGLE, gamma, note, shaded, sheet
 
 
 def draw(engine_across):

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 from matplotlib.patches import Arc, Polygon
-from palette import CAP, FORCE, STONE
+from palette import CAP, FORCE, GREY, INK, STONE
 
-from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
+from replication.drawing import DOUBLE, letter, note, sheet
 from topheavy import STANDARD_GRAVITY, Column, RockingFrame
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
 

@@ -1,8 +1,9 @@
 """Share of pulses under which a coefficient of friction prevents sliding."""
 
 import numpy as np
+from palette import GREY, INK
 
-from replication.drawing import DOUBLE, GREY, INK, gamma, letter, logarithmic, note, shaded, sheet
+from replication.drawing import DOUBLE, gamma, letter, logarithmic, note, shaded, sheet
 
 ENDS = (0.14, 1.2)  # of the axis of friction
 

@@ -2,20 +2,9 @@
 
 import math
 
-from replication.drawing import (
-    DASHED,
-    DOUBLE,
-    GREY,
-    INK,
-    PALE,
-    gamma,
-    letter,
-    note,
-    ratio_name,
-    ring,
-    shaded,
-    sheet,
-)
+from palette import GREY, INK, PALE
+
+from replication.drawing import DASHED, DOUBLE, gamma, letter, note, ratio_name, ring, shaded, sheet
 
 BESIDE = {0.0: ("column", (-26, 0), "right"), math.inf: (gamma(math.inf), (-16, 0), "right")}
 APART = 8  # %: least distance of two labels

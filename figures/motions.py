@@ -1,9 +1,9 @@
 """Probability of overturning against the peak ground velocity, and gain of the frame by model"""
 
 import numpy as np
-from palette import ALONE, EQUAL, FIXED
+from palette import ALONE, EQUAL, FIXED, GREY, INK
 
-from replication.drawing import DOUBLE, GREY, INK, gamma, letter, logarithmic, note, sheet
+from replication.drawing import DOUBLE, gamma, letter, logarithmic, note, sheet
 
 FAMILIES = ("near-fault", "broadband")
 DASHES = ("-", "--")  # of the sets of a family, by earthquake

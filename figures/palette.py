@@ -6,9 +6,11 @@ What has no meaning of its own is drawn in ink and grey, and told apart by marke
 
 from matplotlib.colors import to_hex, to_rgb
 
+from replication import drawing
 from replication.drawing import shades
 
-RGB = tuple[float, float, float]
+INK, GREY, PALE, PAPER = drawing.INK, drawing.GREY, drawing.PALE, drawing.PAPER
+LIGHTEST, DARKEST = drawing.LIGHTEST, drawing.DARKEST
 
 
 def tint(colour: str, share: float) -> str:

@@ -1,8 +1,9 @@
 """Size, frequency parameter and coefficient of restitution of the frame."""
 
 import numpy as np
+from palette import GREY, INK
 
-from replication.drawing import DOUBLE, GREY, INK, gamma, letter, note, ring, shaded, sheet
+from replication.drawing import DOUBLE, gamma, letter, note, ring, shaded, sheet
 
 LEADER = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 0}
 FORMULAS = (  # γ and slenderness of a curve, its formula, and where that is written

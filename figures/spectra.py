@@ -1,11 +1,10 @@
 """Minimum overturning acceleration against frequency, and the frame's over its column's."""
 
 import numpy as np
+from palette import DARKEST, GREY
 
 from replication.drawing import (
-    DARKEST,
     DOUBLE,
-    GREY,
     PULSES,
     STROKES,
     gamma,

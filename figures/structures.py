@@ -3,20 +3,9 @@
 from itertools import cycle
 
 from matplotlib.patches import Rectangle
-from palette import CAP, FIXED, FORCE, STONE
+from palette import CAP, FIXED, FORCE, GREY, INK, STONE
 
-from replication.drawing import (
-    DOUBLE,
-    GREY,
-    INK,
-    STROKES,
-    beside,
-    gamma,
-    letter,
-    note,
-    ring,
-    shaded,
-)
+from replication.drawing import DOUBLE, STROKES, beside, gamma, letter, note, ring, shaded
 
 # m: between structures, between axes of columns, of the cap beam
 GAP, SPAN, OVERHANG = 6.4, 5.0, 0.5

@@ -2,9 +2,9 @@
 
 import numpy as np
 from matplotlib.colors import ListedColormap
-from palette import AT_ONCE, ROCKS, SURVIVES
+from palette import AT_ONCE, GREY, INK, ROCKS, SURVIVES
 
-from replication.drawing import DASHED, DOUBLE, GREY, INK, letter, note, sheet
+from replication.drawing import DASHED, DOUBLE, letter, note, sheet
 
 LEADER = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 2}
 

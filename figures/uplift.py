@@ -1,6 +1,8 @@
 """Base shear of frames that rock and of a rigid one that is clamped, over the ground's peak."""
 
-from replication.drawing import DASHED, INK, SINGLE, gamma, note, shaded, sheet
+from palette import INK
+
+from replication.drawing import DASHED, SINGLE, gamma, note, shaded, sheet
 
 
 def draw(uplift):

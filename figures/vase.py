@@ -3,20 +3,9 @@
 import math
 
 from matplotlib.patches import Polygon
-from palette import FIXED, OVERTURNED, OVERTURNS, ROCKS, SURVIVES
+from palette import DARKEST, FIXED, GREY, INK, LIGHTEST, OVERTURNED, OVERTURNS, ROCKS, SURVIVES
 
-from replication.drawing import (
-    DARKEST,
-    DASHED,
-    DOUBLE,
-    GREY,
-    INK,
-    LIGHTEST,
-    beside,
-    gamma,
-    letter,
-    note,
-)
+from replication.drawing import DASHED, DOUBLE, beside, gamma, letter, note
 
 PLACES = {"column": 0.0, "fixed mass": 8.2, "frame": 19.0}  # m: the middle of each
 COLOURS = {"column": LIGHTEST, "fixed mass": FIXED, "frame": DARKEST}

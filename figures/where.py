@@ -5,20 +5,9 @@ import math
 import numpy as np
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-from palette import CAUSED, OVERTURNED, OVERTURNS, PREVENTED, PREVENTS, SURVIVES
+from palette import CAUSED, GREY, OVERTURNED, OVERTURNS, PALE, PREVENTED, PREVENTS, SURVIVES
 
-from replication.drawing import (
-    DASHED,
-    DOUBLE,
-    GREY,
-    PALE,
-    PULSES,
-    letter,
-    note,
-    ring,
-    shaded,
-    sheet,
-)
+from replication.drawing import DASHED, DOUBLE, PULSES, letter, note, ring, shaded, sheet
 
 WINDOW = (0.5, 6.0, 1.0, 16.0)  # ω/p and a/(g tan α) of the picture
 STRUCTURES = dict(shaded((0.0, math.inf)))  # colours, by γ
