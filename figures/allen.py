@@ -36,7 +36,7 @@ def errors(axis, table):
     for model, (words, dash, face) in MODELS.items():
         line = quoted[quoted.model == model]
         look = {"color": MODEL if model == "all" else INK, "markerfacecolor": face}
-        size = 5 if face == PAPER else 3  # of two lines on each other both are seen
+        size = 5 if face == PAPER else 3  # both are seen where two lines lie on each other
         axis.plot(
             line.mass_ratio,
             100 * line.median_error,

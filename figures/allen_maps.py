@@ -6,7 +6,7 @@ from palette import CONSERVATIVE, MODEL, OVERTURNED, PAPER
 
 from replication.drawing import DOUBLE, letter, note, sheet
 
-OUTCOMES = {  # by twice the outcome of the exact frame and once that of the model
+OUTCOMES = {  # code: twice the outcome of the exact frame plus that of the model
     "both survive": PAPER,
     "falsely overturned": CONSERVATIVE,
     "falsely safe": MODEL,

@@ -8,7 +8,7 @@ from palette import CAUSED, INK
 
 from replication.drawing import DOUBLE, gamma, letter, note, ring, shaded, sheet
 
-RANGE = 1.4, 2.6  # of a/(g tan α)
+RANGE = 1.4, 2.6  # a/(g tan α) at the ends of the axis
 
 
 def lines(axis, table, colours):

@@ -18,7 +18,7 @@ SEAT, UPPER_LEFT = 2, 3  # corners of `column_outline`; for θ < 0 the cap rests
 UP, RIGHT = 1.0, 5.0  # m in the drawing for a vertical and a horizontal force of the cap's weight
 SET_OFF = 0.14  # m, between the cap and what is drawn beside it
 AXES = (-SPAN / 2, SPAN / 2)
-LABELS = {  # of a force, and the place beside its arrow's free end, in points
+LABELS = {  # text of a force, and its place beside the free end of the arrow, points
     "F_x1": ("$F_{x1}$", (-15, -6)),
     "F_x2": ("$F_{x2}$", (9, 0)),
     "F_z1": ("$F_{z1}$", (0, -6)),
@@ -32,7 +32,9 @@ def outlines(theta):
     """Return the corners of both columns and of the cap beam on them, m."""
     b, h = FRAME.column.half_width, FRAME.column.half_height
     half = SPAN / 2 + b + OVERHANG
-    depth = FRAME.mass_ratio * 2 * (4 * b * h) / (2 * half)  # of the density of the columns
+    depth = (
+        FRAME.mass_ratio * 2 * (4 * b * h) / (2 * half)
+    )  # the beam has the density of the columns
     cap = np.array([[-half, 0], [half, 0], [half, depth], [-half, depth]]) + [0, 2 * h]
     columns = [column_outline(FRAME.column, theta) + [axis, 0.0] for axis in AXES]
     return [cap + np.array(cap_displacement(FRAME.column, theta)), *columns]

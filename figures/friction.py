@@ -5,7 +5,7 @@ from palette import GREY, INK
 
 from replication.drawing import DOUBLE, gamma, letter, logarithmic, note, shaded, sheet
 
-ENDS = (0.14, 1.2)  # of the axis of friction
+ENDS = (0.14, 1.2)  # ends of the axis of friction, –
 
 
 def draw(friction_pulses):

@@ -6,13 +6,13 @@ from palette import ALONE, EQUAL, FIXED, GREY, INK
 from replication.drawing import DOUBLE, gamma, letter, logarithmic, note, sheet
 
 FAMILIES = ("near-fault", "broadband")
-DASHES = ("-", "--")  # of the sets of a family, by earthquake
+DASHES = ("-", "--")  # lines of the two earthquakes of a family
 STRUCTURES = {  # colour, place of the words
     "fixed mass": (FIXED, (1.0, 0.28)),
     "column": (ALONE, (1.0, 0.17)),
     "frame": (EQUAL, (1.0, 0.06)),
 }
-MARKERS = "^osDv"  # of columns of different size
+MARKERS = "^osDv"  # markers of the sizes of columns
 APART = 0.25  # rows of a model, between columns of different size
 
 

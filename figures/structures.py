@@ -7,7 +7,7 @@ from palette import CAP, FIXED, FORCE, GREY, INK, STONE
 
 from replication.drawing import DOUBLE, STROKES, beside, gamma, letter, note, ring, shaded
 
-# m: between structures, between axes of columns, of the cap beam
+# Distances between structures and between axes of columns, and overhang of the cap beam, m
 GAP, SPAN, OVERHANG = 6.4, 5.0, 0.5
 
 

@@ -7,11 +7,11 @@ from palette import DARKEST, FIXED, GREY, INK, LIGHTEST, OVERTURNED, OVERTURNS, 
 
 from replication.drawing import DASHED, DOUBLE, beside, gamma, letter, note
 
-PLACES = {"column": 0.0, "fixed mass": 8.2, "frame": 19.0}  # m: the middle of each
+PLACES = {"column": 0.0, "fixed mass": 8.2, "frame": 19.0}  # middle of each, m
 COLOURS = {"column": LIGHTEST, "fixed mass": FIXED, "frame": DARKEST}
 LABELS = {"column": (0, -6), "fixed mass": (0, -7), "frame": (0, 7)}  # points, from the ends
-ROW = 8.9  # m between the rows
-EDGES = (-5.2, 22.8)  # m: of the ground
+ROW = 8.9  # distance of the rows, m
+EDGES = (-5.2, 22.8)  # ends of the ground, m
 TINTS = {OVERTURNS: OVERTURNED, SURVIVES: ROCKS}
 
 

@@ -27,11 +27,11 @@ import numpy as np
 from scipy import optimize, special
 
 G, INF, PI = 9.81, math.inf, math.pi
-LONGEST_STEP, SHORT_STEP = 0.3, 0.05  # of p t
-SHORTEST_CUT = 1e-5  # of p t: a step in which two turns are looked for
-FINEST = PI / 16  # of ωt: the longest step under a pulse
-REST = 1e-8  # of α: a bounce that would stay below it is rest, if nothing lifts the body at once
-COUNTED = 1e-6  # of α: an impact that ends a lower rotation is not counted
+LONGEST_STEP, SHORT_STEP = 0.3, 0.05  # steps of p t
+SHORTEST_CUT = 1e-5  # shortest step of p t that is searched for two turns
+FINEST = PI / 16  # longest step of the phase ωt under a pulse
+REST = 1e-8  # height over α of a bounce that counts as rest, if nothing lifts the body at once
+COUNTED = 1e-6  # rotation over α below which the impact that ends it is not counted
 
 # Bodies ------------------------------------------------------------------------------------------
 
@@ -414,7 +414,7 @@ def minima(bodies, ground, omega, highest=20.0, step=0.002):
 FOLDER = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 TEMPLE, TRILITH, PERIOD = (0.5, 3.0), (0.11, 0.40), 1.5  # half-width and half-height, m; s
 MAKE = {"column": lambda b, h, gamma: column(b, h), "fixed mass": fixed, "frame": frame}
-SENTENCES = {  # of README: each is there if this file computes that it is true; # is a number
+SENTENCES = {  # README has each if this file computes that it is true; # is a number
     "size": "R̂ is at most # times R",
     "trilith": "p̂ = # rad/s, as printed",
     "allen": "wrong, mostly too small, by #, # and # % for γ = 0.5, 2 and 10",
@@ -430,7 +430,7 @@ SENTENCES = {  # of README: each is there if this file computes that it is true;
     "models": "over ten models",
     "never": "minimum overturning acceleration never fell under four pulse shapes",
 }
-ABSTRACT = {  # of the abstract: `make check` looks for each; this file computes that it is true
+ABSTRACT = {  # sentences that `make check` looks for; this file computes that each is true
     "size": "equal slenderness and up to # times the size, with a lower coefficient of restitution",
     "velocity": r"rises from # cm/s \(the column\) to # cm/s \(a very heavy beam\)",
     "models": "under each of ten models, a beam as heavy as both columns raises the",
@@ -438,7 +438,7 @@ ABSTRACT = {  # of the abstract: `make check` looks for each; this file computes
     "uplift": r"tested trilith agree with ours \(p̂=# rad/s\); it was shaken below uplift",
     "small": "errs in the peak rotation by a median of # % for γ=# and # % for γ=#",
 }
-NOT_RECOMPUTED = {  # of README and abstract, and the rules that compute them
+NOT_RECOMPUTED = {  # sentences of README and abstract, and the rules that compute them
     "alone is # % lower(?: than theory says)?, as measured on concrete, # of # per": "break_even",
     "at an acceleration # % below that of the frame with γ=#, and in # of # draws": "worst_found",
     "with lobes changed by # % it still does": "worst_found, from its draws",

@@ -142,7 +142,7 @@ def faults(results: dict[str, dict[str, Any]]) -> Iterator[str]:
 
 if __name__ == "__main__":
     results = findings(read("rules"))
-    with warnings.catch_warnings(action="ignore"):  # of examples that show a warning
+    with warnings.catch_warnings(action="ignore"):  # examples that show one
         wrong = [*faults(results)]
     if wrong:
         raise SystemExit("\n".join(wrong))

@@ -27,7 +27,8 @@ PAGES = {
     "results/functions.html": "functions.html",
     "results/animation.gif": "animation.gif",
 }
-PICTURES = ["structures", "parameters", "trilith", "allen", "vase", "where", "motions"]  # of README
+PICTURES = ["structures", "parameters", "trilith", "allen", "vase", "where", "motions"]
+"""Figures of README."""
 
 
 def copies() -> dict[Path, Path]:

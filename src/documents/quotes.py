@@ -9,7 +9,7 @@ NAMES = re.compile(
     r"(?:(?:Eqs?\.|Equations?|paper’s|its|restitution|size|and) \(\d+\)|Theorems? \d)"
     r"(?:(?:, | and | to )(?:\(\d+\)|\d))*"  # Eqs. (1), (2) and (3)
     r"|(?:Figures?|Tables?|Figs?\.|pages?|p\.|par\.) S?\d+(?:, \(\d\))?"
-    r"|(?:^|[.;:] )\(\d\) "  # of an enumeration
+    r"|(?:^|[.;:] )\(\d\) "  # numbers of an enumeration
     r"|(?:al\.|[A-Z]\w+) \(?\d{4}\b"  # Allen et al. (1986)
     r"|record of \d{4}"
 )
@@ -42,12 +42,12 @@ class Numbers(HTMLParser):
     def __init__(self, html: str) -> None:
         super().__init__()
         self.html = html
-        self.count: Counter[str] = Counter()  # of "number", with a source, and of "typed"
+        self.count: Counter[str] = Counter()  # classes "number", with a source, and "typed"
         self.quotes: list[Quote] = []  # in the order of their links
         self.without: list[tuple[str, str]] = []  # a number, and its sentence
         self.open: list[tuple[str, str]] = []  # tag and class
         self.text, self.free = "", list[tuple[int, str]]()
-        self.links: list[tuple[int, str, str]] = []  # of numbers: place in the text, source, target
+        self.links: list[tuple[int, str, str]] = []  # place in the text, source, target
         self.heading, self.row = "", ""
         self.equation = 0  # where it begins in the text
         self.feed(html)

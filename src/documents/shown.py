@@ -111,7 +111,7 @@ def texts(axes: Axes) -> list[Text]:
 
 
 def colour(value: Any) -> str:
-    return to_hex(value, keep_alpha=True).removesuffix("ff")  # of an opaque one
+    return to_hex(value, keep_alpha=True).removesuffix("ff")  # opaque
 
 
 def write() -> None:

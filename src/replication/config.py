@@ -73,7 +73,7 @@ def _message(error: Any, model: type[BaseModel]) -> str:
     if error["type"] == "missing":
         return f"the key '{key}' is missing"
     entry, expected = error["input"], error["msg"].removeprefix("Value error, ")
-    if not key:  # of the sections together
+    if not key:  # the sections contradict each other
         return expected
     comma = ""
     if (
