@@ -183,8 +183,8 @@ if foreign := sorted(strays()):
     few = f"rm {' '.join(foreign)}, or " if len(foreign) < 6 else ""
     sys.exit(
         f"{foreign[0]}{f' and {len(foreign) - 1} others are' if foreign[1:] else ' is'} not what a job "
-        "wrote here with the code and parameters on Snakemake's record (it was made elsewhere, or edited, or the "
-        f"record was renewed by --touch or cleaned up): {few}make clean. Then run again"
+        "wrote here with the code and parameters on Snakemake's record (it was made elsewhere, edited, or written by "
+        f"a job of a killed run; or the record was renewed by --touch or cleaned up): {few}make clean. Then run again"
     )
 
 
