@@ -73,6 +73,7 @@ for path in sorted(glob("notebooks/*.ipynb")):
             kernel="results/kernel.compiled",
             notebook=path,
             style="figures/style.mplstyle",
+            sheet="paper/site/site.css",
         output:
             executed=f"results/notebooks/{name}.ipynb",
             page=f"results/notebooks/{name}.html",
@@ -91,6 +92,7 @@ rule functions:
         records=[*HORIZONTAL, *UPWARD],
         kernel="results/kernel.compiled",
         style="figures/style.mplstyle",
+        sheet="paper/site/site.css",
     output:
         page="results/functions.html",
     log:

@@ -10,7 +10,7 @@ from documents import functions
 
 @pytest.fixture(scope="module")
 def text():
-    return functions.page(functions.described(), {})
+    return functions.page(functions.described(), {}, "")
 
 
 def test_each_public_name_has_one_place_in_the_order_of_the_package(text):

@@ -107,11 +107,12 @@ def rewritten(
     film = config["animation"], config["structures"]["temple"]
     record = "data/records/el_centro_1940_NS.AT2"
     records, _ = components("data/records")
+    library = style, records, "paper/site/site.css"
     run = lists.Run(rows, read_yaml("figures/captions.yaml"))
     pages = {
         "verdicts.md": lambda: lists.claims(run, lists.Docs()),
         "explorer.html": lambda: explorer.compute(record)["page"],
-        "functions.html": lambda: functions.compute(style, records)["page"],
+        "functions.html": lambda: functions.compute(*library)["page"],
         "animation.gif": lambda: animation.compute(*film, style)["gif"],
     }
     others = ["numbers.md", "report.pdf", "supplement.pdf", *map("{}.svg".format, publish.PICTURES)]

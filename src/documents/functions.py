@@ -20,6 +20,7 @@ import numpy as np
 import pdoc
 
 import topheavy
+from documents.frame import framed
 from replication.drawing import picture
 from replication.job import stop
 from replication.step import run
@@ -162,37 +163,40 @@ def pictures(module: pdoc.doc.Module, style: str, records: list[str]) -> dict[st
     return {name: svg for name, svg in shown.items() if svg}
 
 
-def page(module: pdoc.doc.Module, shown: dict[str, str]) -> str:
+def page(module: pdoc.doc.Module, shown: dict[str, str], style: str) -> str:
     """Return the page, the same each time: under headings, with pictures, without sources."""
     pdoc.render.configure(docformat="numpy", show_source=False, search=False, math=False)
     for doc in nested(module):
         if doc.qualname in shown:
             doc.docstring += f"\n\nFIGURE-{doc.qualname}"
-    text = pdoc.render.html_module(module, {"topheavy": module})
+    text = re.search("(?s)<main.*</main>", pdoc.render.html_module(module, {"topheavy": module}))[0]
 
     def figure(match: re.Match[str]) -> str:
         content = b64encode(shown[match[1]].encode()).decode()
         alt = re.search("(?s)<desc>(.*?)</desc>", shown[match[1]])[1]
-        return (
-            f'<img src="data:image/svg+xml;base64,{content}" alt="{alt}" style="max-width: 100%">'
-        )
+        return f'<img class="picture" src="data:image/svg+xml;base64,{content}" alt="{alt}">'
 
     text = re.sub(r"FIGURE-([\w.]+)", figure, text)
-    text = text.replace("topheavy API documentation", "Functions of topheavy")
-    text = text.replace("<h2>API Documentation</h2>", "<p><b>Functions</b></p>")
     text = re.sub(r'<h6 id="[^"]*">(.*?)</h6>', r"<h3>\1</h3>", text)  # an id for all functions
-    text = re.sub(r'(?s)(<a class="class"[^>]*>\w+</a>)\s*<ul.*?</ul>', r"\1", text)  # of members
-    for title, (first, *_) in headings().items():
-        text = text.replace(f'<section id="{first}">', f'<h2>{title}</h2>\n<section id="{first}">')
-        link = rf'<li>\s*<a class="\w+" href="#{re.escape(first)}">'
-        text = re.sub(link, rf"<li><b>{title}</b></li>\n\g<0>", text)
-    return text
+    link = r'class="headerlink" href="#([\w.]+)"'
+    text = re.sub(link, r'\g<0> aria-label="Link to \1"', text)
+    text = re.sub(r"<input [^>]*>\s*<label [^>]*></label>", "", text)  # that hide a long value
+    text = text.replace("<pre><code>", '<pre tabindex="0"><code>')  # a drawing, not an example
+    index = []
+    for title, names in headings().items():
+        section = f'<section id="{names[0]}">'
+        text = text.replace(section, f"<h2>{title}</h2>\n{section}")
+        links = " ".join(f'<li><a href="#{name}">{name}</a></li>' for name in names)
+        index.append(f"<li><b>{title}</b><ul>{links}</ul></li>")
+    body = f'<nav class="contents" aria-label="Contents"><ul>{"".join(index)}</ul></nav>\n{text}'
+    return framed("Functions of topheavy", body, "functions", f"<style>{style}</style>")
 
 
-def compute(style: str, records: list[str]) -> dict[str, str]:
-    """Return the page of the library's functions."""
+def compute(style: str, records: list[str], sheet: str) -> dict[str, str]:
+    """Return the page of the library's functions; `sheet` is the style of pages."""
     module = described()
-    return {"page": page(module, pictures(module, style, records))}
+    shown = pictures(module, style, records)
+    return {"page": page(module, shown, Path(sheet).read_text("utf-8"))}
 
 
 if __name__ == "__main__":

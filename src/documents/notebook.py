@@ -2,39 +2,44 @@
 
 import json
 import os
+import re
 import tempfile
 from pathlib import Path
 from typing import Any
 
 from latex2mathml.converter import convert
 
+from documents.frame import framed
 from replication.job import log_to, write
 
-PAGE = """
-{%- extends "lab/index.html.j2" -%}
-{%- block html_head_js -%}{%- endblock -%}
-{%- block html_head_js_mathjax -%}{%- endblock -%}
-{%- block html_head_js_mermaidjs -%}{%- endblock -%}
-{%- block html_head_css -%}
-{{ super() }}
-<style>
-.jp-OutputArea-output:has(> math) { overflow: visible; padding: 0.4em 0; }
-.jp-RenderedHTMLCommon :is(th, td) { text-align: left !important; }
-</style>
+CELLS = """
+{%- extends "base/display_priority.j2" -%}
+{%- block markdowncell -%}
+{{ cell.source | markdown2html }}
 {%- endblock -%}
-{%- block data_latex -%}
-<div class="jp-OutputArea-output">{{ output.data["text/latex"] | mathml }}</div>
+{%- block input -%}
+{{ cell.source | highlight_code(metadata=cell.metadata) }}
 {%- endblock -%}
-{%- block data_png scoped -%}
-<div class="jp-RenderedImage jp-OutputArea-output">
-<img src="data:image/png;base64,{{ output.data["image/png"] | escape_html }}"
-alt="{{ output | get_metadata("alt", "image/png") | escape_html }}">
+{%- block stream -%}
+<pre>{{ output.text | ansi2html }}</pre>
+{%- endblock -%}
+{%- block data_text -%}
+<pre>{{ output.data["text/plain"] | ansi2html }}</pre>
+{%- endblock -%}
+{%- block data_html -%}
+<div class="scroll" tabindex="0">
+{{ output.data["text/html"] | replace("<th></th>", "<td></td>") }}
 </div>
 {%- endblock -%}
+{%- block data_latex -%}
+<div class="equation" tabindex="0">{{ output.data["text/latex"] | mathml }}</div>
+{%- endblock -%}
+{%- block data_png -%}
+<img class="picture" src="data:image/png;base64,{{ output.data["image/png"] | escape_html }}"
+alt="{{ output | get_metadata("alt", "image/png") | escape_html }}">
+{%- endblock -%}
 """
-"""nbconvert's page without its scripts, which come from the network; formulas are MathML and
-pictures have the alternative text that their cells give."""
-
+"""The cells of a page; formulas are MathML, and pictures have the texts that their cells give."""
 
 MODULES = """
 import sys
@@ -46,8 +51,8 @@ for module in list(sys.modules.values()):
 nbclient takes a time that grows with the square of a line."""
 
 
-def render(notebook: Any, title: str) -> str:
-    """Return an executed notebook as a page."""
+def render(notebook: Any, style: str) -> str:
+    """Return an executed notebook as a page, with its first heading as its title."""
     from jinja2 import DictLoader
     from nbconvert import HTMLExporter
     from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
@@ -62,17 +67,18 @@ def render(notebook: Any, title: str) -> str:
             return convert(body, display="block")
 
     exporter = HTMLExporter(
-        exclude_input_prompt=True,
-        exclude_output_prompt=True,
-        extra_loaders=[DictLoader({"page.html.j2": PAGE})],
-        template_file="page.html.j2",
+        extra_loaders=[DictLoader({"cells.html.j2": CELLS})],
+        template_file="cells.html.j2",
         filters={
             "mathml": lambda latex: convert(latex.strip("$"), display="block"),
-            "markdown2html": lambda text: MarkdownWithMath(Renderer(escape=False)).render(text),
+            "markdown2html": lambda text: MarkdownWithMath(
+                Renderer(escape=False, exclude_anchor_links=True)
+            ).render(text),
         },
     )
-    body, _ = exporter.from_notebook_node(notebook, resources={"metadata": {"name": title}})
-    return body
+    body, _ = exporter.from_notebook_node(notebook)
+    title = re.search("<h1[^>]*>(.*?)</h1>", body)[1]
+    return framed(title, f"<main>{body}</main>", "notebook", f"<style>{style}</style>")
 
 
 def execute(source: Path) -> Any:
@@ -111,6 +117,6 @@ if __name__ == "__main__":
         modules = notebook.metadata.pop("modules")
         made = {
             snakemake.output.executed: json.dumps(notebook, indent=1, ensure_ascii=False) + "\n",
-            snakemake.output.page: render(notebook, source.stem),
+            snakemake.output.page: render(notebook, Path(snakemake.input.sheet).read_text("utf-8")),
         }
         write(snakemake, made, modules)

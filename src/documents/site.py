@@ -15,7 +15,7 @@ from typing import Any
 
 import mistune
 
-from documents import lists
+from documents import frame, lists
 from documents.quotes import Quote
 from documents.typeset import NoMeaning, checked, texts_of
 from replication.config import read_yaml
@@ -41,22 +41,6 @@ document.getElementById("search").addEventListener("input", ({ target }) => {
     entry.hidden = !entry.textContent.toLowerCase().includes(target.value.toLowerCase())
 })
 </script>"""
-FRAME = """<!DOCTYPE html>
-<html lang="en-GB">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>{title}</title>
-<link rel="icon" href="data:,">
-<link rel="stylesheet" href="{up}site.css">
-</head>
-<body class="{kind}">
-{head}
-{body}
-</body>
-</html>
-"""
 
 
 def head(name: str) -> str:
@@ -74,8 +58,8 @@ def head(name: str) -> str:
 
 def framed(name: str, title: str, body: str, kind: str = "list") -> str:
     """Return a page in the frame of all pages."""
-    up = "../" * name.count("/")
-    return FRAME.format(title=escape(title), up=up, kind=kind, head=head(name), body=body)
+    style = f'<link rel="stylesheet" href="{"../" * name.count("/")}site.css">'
+    return frame.framed(title, f"{head(name)}\n{body}", kind, style)
 
 
 def headed(name: str, text: str, style: str) -> str:
@@ -183,7 +167,8 @@ def site(job: Any) -> dict[str, str | bytes]:
         name = ("notebook_" if path.parent.name == "notebooks" else "") + path.name
         pages[name] = headed(name, path.read_text("utf-8"), style)
     font = b64encode(Path(job.input.font).read_bytes()).decode()
-    pages["site.css"] = style + Path(job.input.style).read_text("utf-8").replace("{font}", font)
+    face = f'@font-face {{ font-family: "Topheavy Math"; src: url(data:font/woff;base64,{font}); }}'
+    pages["site.css"] = f"{style}{face}\n{Path(job.input.style).read_text('utf-8')}"
     folders = {".svg": "figures/", ".gif": "figures/", ".csv": "tables/", ".pdf": ""}
     copies = [path for path in map(Path, job.input) if path.suffix in folders]
     files = {folders[path.suffix] + path.name: path.read_bytes() for path in copies}
