@@ -51,6 +51,9 @@ for path in ["config/config.yaml", *workflow.configfiles]:
 configfile: "config/config.yaml"
 
 
+report: "paper/overview.rst"
+
+
 # The scripts of each rule: a rule joins by code(…), and Snakemake's `rules` has the rest.
 SCRIPTS = {}
 
