@@ -23,6 +23,9 @@ CELLS = """
 {%- block stream -%}
 <pre>{{ output.text | ansi2html }}</pre>
 {%- endblock -%}
+{%- block execute_result -%}
+{%- block data_priority scoped -%}{{ super() }}{%- endblock -%}
+{%- endblock -%}
 {%- block data_text -%}
 <pre>{{ output.data["text/plain"] | ansi2html }}</pre>
 {%- endblock -%}
