@@ -36,7 +36,8 @@ def minimum(frame, shape, period):
     outcomes = [plain.judge(frame, pulse.scaled(side)).overturned for side in sides]
     check(
         outcomes == [False, True],
-        f"the plain solver says {outcomes} beside the minimum of {high:.6g} g",
+        f"overturning just below and above the minimum of {high:.6g} g is {outcomes} by the plain "
+        "solver; expected [False, True]",
     )
     return high
 

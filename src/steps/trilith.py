@@ -65,10 +65,9 @@ def numbers(frame, settings):
 
 
 def thresholds(frame, settings):
-    """Return the changes that would uplift it, each simulated on both sides of its threshold.
+    """Return the changes that would uplift the trilith, simulated on both sides of each threshold.
 
-    They are the amplitude u₀ and the frequency f of the shake table whose peak acceleration is the
-    uplift acceleration.
+    At the amplitude u₀ or frequency f `to_lift`, the peak acceleration is that of uplift.
     """
     u, f = settings["table_amplitude"], settings["table_frequency"]
     amplitude = frame.uplift_acceleration / table_acceleration(1.0, f)
@@ -79,7 +78,10 @@ def thresholds(frame, settings):
             for side in (-ASIDE, ASIDE)
         ]
         uplifts = [outcome != "no uplift" for outcome in outcomes]
-        check(uplifts == [False, True], f"uplift below and above the threshold {motion}: {uplifts}")
+        check(
+            uplifts == [False, True],
+            f"uplift just below and above {motion} is {uplifts}; expected [False, True]",
+        )
     rows = [("amplitude", "mm", 1e3 * u, 1e3 * amplitude), ("frequency", "Hz", f, frequency)]
     return pd.DataFrame(rows, columns=["quantity", "unit", "tested", "to_lift"])
 

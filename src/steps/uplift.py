@@ -34,11 +34,11 @@ def peaks(
     response = simulate(frame, pulse, samples=2)
     if response.overturned:
         return response.outcome, np.full(len(FORCES), math.nan)
-    course = history(frame, pulse, points, solver, response)
+    course = history(frame, pulse, response, points, solver)
     fine, coarse = largest_forces(frame, cap, course.rotation, course.velocity, course.ground)
     check(
         bool(np.allclose(coarse, fine, rtol=HALVED)),
-        f"half as many points change {fine} to {coarse}: {frame} under {pulse}",
+        f"half as many points change the forces {fine} to {coarse}: {frame} under {pulse}",
     )
     return response.outcome, fine
 
@@ -69,7 +69,7 @@ def compute(settings: dict, column: dict) -> list[dict]:
         _, repeated = peaks(frame, cap, pulse, settings["points"], plain.simulate)
         check(
             bool(np.allclose(repeated, forces, rtol=CLOSE)),
-            f"the plain solver has {repeated} in place of {forces}: {frame} under {pulse}",
+            f"the plain solver has the forces {repeated}, not {forces}: {frame} under {pulse}",
         )
     return rows
 

@@ -185,8 +185,9 @@ def over_frequency(column: Column, settings: dict) -> list[dict]:
         if is_exception(name, minimum, column_minimum):
             stronger, lower = (column, minimum) if name == FRAME else (structure, column_minimum)
             exceptions.append((stronger, pulse.scaled(lower)))
-    for exception, end in zip(exceptions, plain.judge_pulses(exceptions), strict=True):
-        check(not end.overturned, f"by the plain solver it overturns: {exception}")
+    ends = plain.judge_pulses(exceptions)
+    for (structure, pulse), end in zip(exceptions, ends, strict=True):
+        check(not end.overturned, f"{structure} overturns under {pulse} by the plain solver")
     chosen = np.random.default_rng(SEED).permutation(len(sample))[: settings["sample"]]
     errors_of([sample[number] for number in chosen])
     return rows

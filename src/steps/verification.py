@@ -156,7 +156,7 @@ def check_drift(settings):
         for equation in (block, block.linear()):
             response = simulate(equation, rotation=0.8 * block.slenderness, samples=4000)
             lost = energy_drift(equation, response, flights=6)
-            check(lost < 1e-8, f"the energy changes by {lost:.1g} of itself between impacts")
+            check(lost < 1e-8, f"the energy changes by {lost:.1g} of its value between impacts")
 
 
 def compute(settings, solver):
@@ -188,7 +188,7 @@ def findings(
     check(wrong.empty, f"of the numbers of the literature, {', '.join(wrong)} differ")
     forms = verification_closed_forms
     off_form = (forms.computed / forms.closed_form - 1.0).abs().max()
-    check(off_form < OF_FORM, f"free rocking is {off_form:.1g} of itself from its closed form")
+    check(off_form < OF_FORM, f"free rocking is off its closed form by {off_form:.1g} of it")
     order, within = verification_order, verification_order.factor <= 1.0
     lost = order.order_lost + order.lighter_first
     fails = lost[within].sum()

@@ -14,14 +14,7 @@ from scipy.optimize import isotonic_regression
 
 from replication.step import check, run, truth, value
 from steps.shared.samples import beside_a_boundary, check_sample, overturns
-from steps.shared.sweep import (
-    FAMILIES,
-    models,
-    outcomes,
-    reductions,
-    restitution_question,
-    sets,
-)
+from steps.shared.sweep import FAMILIES, models, outcomes, reductions, restitution_question, sets
 from topheavy import Column
 from topheavy.risk.resampling import Ensemble
 

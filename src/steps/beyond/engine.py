@@ -173,7 +173,7 @@ def overturning(row, changed, of_column, settings, structures):
     begin = max(uplift, np.nan_to_num(expected, nan=of_column) - BELOW * step)
     factors = step * np.arange(math.floor(begin / step), math.ceil(HIGHEST / step))
     factor = next(f for f in factors if overturns(bodies, pulse.scaled(f), direction))
-    message = f"{row}, {changed}: from {factor:.2f} on; expected {expected:.3f} within a step"
+    message = f"{row}, {changed}: overturns from {factor:.2f} on; expected {expected:.3f}"
     check(factor > factors[0] and not abs(factor - expected) > 1.5 * step, message)
     numbers = {"uplift": uplift, "theory": expected, "engine": factor}
     return dict(zip(LABELS, row, strict=True)) | solver | numbers

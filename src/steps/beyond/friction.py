@@ -43,7 +43,7 @@ def required(frame, cap, shaking, settings):
     response = simulate(frame, shaking, samples=2)
     if response.overturned:
         return None
-    arcs = history(frame, shaking, settings["samples"], whole=response)
+    arcs = history(frame, shaking, response, settings["samples"])
     forces = forces_at(frame, cap, arcs.rotation, arcs.velocity, arcs.ground)
     friction, vertical = forces.friction_demand, [np.nanmin(forces.vertical)]
     largest, coarse = np.nanmax(friction), np.nanmax(friction[..., ::2])

@@ -82,7 +82,7 @@ def capacities(spec, column, records, tightened):
         frame = RockingFrame(column, gamma)
         first = replace(capacity(frame, record), share=spec["share"])
         ends = [(1.0 + window) * first.over(window) for window in spec["windows"]]
-        check(np.isfinite(ends).all(), f"{record.name}: no capacity in a window")
+        check(np.isfinite(ends).all(), f"{record.name}: capacities in windows end at {ends}")
         begin = first.overturned.argmax()
         part = slice(begin, np.searchsorted(first.factors, max(ends)) + 1)
         fell, nudged = first.overturned.copy(), (1.0 + NUDGE) * first.factors[part]

@@ -32,7 +32,8 @@ def compute(settings):
         low, high = (lowest(structure, unit).factor for structure in (block, frame))
         pulse = unit.scaled(math.sqrt(low * high))
         fell = [solve(body, pulse).overturned for body, solve in product((block, frame), SOLVERS)]
-        check(fell == [True, True, False, False], f"{name}, {pulse}: overturned {fell}")
+        message = f"{pulse} overturns column and {name}, by two solvers: {fell}"
+        check(fell == [True, True, False, False], message)
         survived = surviving_reduction(block, pulse)
         for scatter in settings["scatters"]:
             right = float(ndtr(0.5 * math.log(high / low) / scatter))

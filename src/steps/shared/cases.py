@@ -63,7 +63,8 @@ def bisected(
     """Return the number between two ends up to which a structure survives, to half a width."""
     low, high = ends
     outcomes = [survives(low), survives(high)]
-    check(outcomes == [True, False], f"{case}: survives at {low:g} and {high:g}: {outcomes}")
+    message = f"{case}: survival at {low:g} and {high:g} is {outcomes}; expected [True, False]"
+    check(outcomes == [True, False], message)
     while high - low > width:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if survives(middle) else (low, middle)

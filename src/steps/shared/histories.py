@@ -28,16 +28,14 @@ class History:
 def history(
     frame: RockingFrame,
     pulse: Pulse,
+    response: Response,
     samples: int,
     solver: Callable[..., Response] = simulate,
-    whole: Response | None = None,
 ) -> History:
-    """Return a whole history that does not overturn, by one of the solvers.
+    """Return the history of a response that does not overturn, by one of the solvers.
 
-    Each arc holds both its ends and 2·samples − 1 times between them, evenly. `whole` is the
-    response from 0 to its end, where the caller has it.
+    Each arc holds both its ends and 2·samples − 1 times between them, evenly.
     """
-    response = whole or solver(frame, pulse, samples=2)
     step = 2.0 * math.pi / pulse.angular_frequency / CHUNKS
     end = pulse.duration if response.outcome == "no uplift" else response.time[-1]
     kinks = np.arange(round(pulse.duration / step) + 1) * step
