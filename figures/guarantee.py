@@ -4,7 +4,7 @@ import math
 
 from palette import GREY, INK, PALE
 
-from replication.drawing import DASHED, DOUBLE, gamma, letter, note, ratio_name, ring, shaded, sheet
+from replication.drawing import DASHED, DOUBLE, gamma, letter, note, ring, shaded, sheet
 
 BESIDE = {0.0: ("column", (-26, 0), "right"), math.inf: (gamma(math.inf), (-16, 0), "right")}
 APART = 8  # %: least distance of two labels
@@ -44,7 +44,7 @@ def velocities(axis, rows):
             number = 100 * rows[name].iloc[place]
             text = f"{number:.0f}" if number > 10 else f"{number:.1f}"
             note(axis, text, (place, number), (0, 6), ha="center")
-    axis.set_xticks(places, map(ratio_name, ratios))
+    axis.set_xticks(places, [f"{ratio:g}".replace("inf", "∞") for ratio in ratios])
     axis.set(xlabel=r"Mass ratio, $\gamma$ (–)", ylabel="Ground velocity (cm/s)", ylim=(0, 76))
 
 

@@ -92,14 +92,10 @@ def beside(width: float, height: float, shares: Sequence[float]) -> tuple[Figure
     return figure, [part.subplots() for part in parts]
 
 
-def shades(
-    count: int,
-    lightest: tuple[float, float, float] = LIGHTEST,
-    darkest: tuple[float, float, float] = DARKEST,
-) -> list[tuple[float, float, float]]:
+def shades(count: int) -> list[tuple[float, float, float]]:
     """Return colours of one hue, from the lightest to the darkest."""
     steps = [i / max(count - 1, 1) for i in range(count)]
-    pairs = list(zip(lightest, darkest, strict=True))
+    pairs = list(zip(LIGHTEST, DARKEST, strict=True))
     return [tuple(low + (high - low) * step for low, high in pairs) for step in steps]
 
 
@@ -136,11 +132,6 @@ def shaded(levels: Iterable[Any]) -> list[tuple[Any, tuple[float, float, float]]
     """Return each level with its colour, the later the darker."""
     levels = list(levels)
     return list(zip(levels, shades(len(levels)), strict=True))
-
-
-def ratio_name(value: float) -> str:
-    """Return a mass ratio as an axis shows it."""
-    return "∞" if math.isinf(value) else f"{value:g}"
 
 
 def gamma(value: float) -> str:
