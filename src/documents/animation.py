@@ -80,11 +80,11 @@ def stage(pulse: Pulse, times: np.ndarray, settings: dict, column: dict):
     fine = np.linspace(0.0, times[-1], 1400)
     trace.plot(fine, pulse.excitation(fine), color=GREY, linewidth=1.2)
     marker = trace.plot([], [], "o", color=INK, markersize=6, clip_on=False)[0]
-    given = settings["pulse"]
-    words = f"one cosine, {given['amplitude']:g} g, {given['period']:g} s"
+    wave = settings["pulse"]
+    words = f"one cosine, {wave['amplitude']:g} g, {wave['period']:g} s"
     words += f"; columns of {2 * column['half_height']:g} m × {2 * column['half_width']:g} m"
     words += f"; mass ratio γ = {settings['mass_ratio']:g}"
-    trace.text(given["period"] + 0.1, 0.25, words, fontsize=11, va="center", color=INK)
+    trace.text(wave["period"] + 0.1, 0.25, words, fontsize=11, va="center", color=INK)
     trace.set(xlim=(0, times[-1]), ylim=(-0.45, 0.45), yticks=(-0.3, 0, 0.3))
     trace.set_xlabel("Time (s)", fontsize=9)
     trace.set_ylabel("Ground (g)", fontsize=9)
@@ -98,12 +98,12 @@ def patch(scene, colour: str, zorder: int) -> Polygon:
 
 
 def pictures(settings: dict, column: dict) -> list[Image.Image]:
-    given, cap = settings["pulse"], settings["cap"]
+    wave, cap = settings["pulse"], settings["cap"]
     shown = structures(Column(**column), settings["mass_ratio"], cap)
     alpha = shown["column"].slenderness
-    pulse = Pulse(given["shape"], given["amplitude"], period=given["period"])
+    pulse = Pulse(wave["shape"], wave["amplitude"], period=wave["period"])
     times = np.arange(0.0, settings["duration"], hundredths(settings) / 100.0)
-    theta = {name: rotations(one, pulse, times, cap) for name, one in shown.items()}
+    theta = {name: rotations(structure, pulse, times, cap) for name, structure in shown.items()}
     figure, scene, marker = stage(pulse, times, settings, column)
     patches = {
         (name, body): patch(scene, P.CAP if body == "cap" else P.STONE, 2)
@@ -115,7 +115,7 @@ def pictures(settings: dict, column: dict) -> list[Image.Image]:
         word, since = outcome_in_words(theta[name], times, alpha)
         how = {"ha": "center", "va": "bottom", "fontsize": 12, "color": COLOURS[word][1]}
         words[name] = scene.text(middle, VIEW[2], word, visible=False, **how), since
-    canvas, made = FigureCanvasAgg(figure), []
+    canvas, drawings = FigureCanvasAgg(figure), []
     for number, shift in enumerate(ground_displacement(pulse, times)):
         for name, structure in shown.items():
             for body, outline in bodies(structure, theta[name][number], cap).items():
@@ -123,16 +123,16 @@ def pictures(settings: dict, column: dict) -> list[Image.Image]:
         left, right = VIEW[0] + 0.7 + shift, VIEW[1] - 0.7 + shift
         ground.set_xy([[left, -0.4], [right, -0.4], [right, 0.0], [left, 0.0]])
         marker.set_data([times[number]], [pulse.excitation(times[number])])
-        for (name, body), one in patches.items():
+        for (name, body), polygon in patches.items():
             word, since = words[name]
             if times[number] >= since:
                 word.set_visible(True)
                 pale, full = COLOURS[word.get_text()]
-                one.set(facecolor=full if body == "cap" else pale, edgecolor=full)
+                polygon.set(facecolor=full if body == "cap" else pale, edgecolor=full)
         canvas.draw()
-        made.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB"))
+        drawings.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB"))
     plt.close(figure)
-    return [*map(quantized, made)]
+    return [*map(quantized, drawings)]
 
 
 def quantized(picture: Image.Image) -> Image.Image:
@@ -149,12 +149,12 @@ def quantized(picture: Image.Image) -> Image.Image:
 def palette() -> Image.Image:
     """Return the colours of every picture: those drawn with, blended with ink and with white."""
     colours = (P.STONE, P.CAP, P.EARTH, P.OVERTURNED, P.OVERTURNS, P.ROCKS, P.SURVIVES, GREY, PAPER)
-    drawn, others = (np.array([*map(mpl.colors.to_rgb, of)]) for of in (colours, (INK, PAPER)))
+    full, ends = (np.array([*map(mpl.colors.to_rgb, names)]) for names in (colours, (INK, PAPER)))
     shares = np.linspace(0.0, 1.0, BLENDS)
-    blends = (1.0 - shares)[:, None] * drawn[:, None, None] + shares[:, None] * others[:, None]
-    found = Image.new("P", (1, 1))
-    found.putpalette((255.0 * blends).round().astype(int).ravel().tolist())
-    return found
+    blends = (1.0 - shares)[:, None] * full[:, None, None] + shares[:, None] * ends[:, None]
+    image = Image.new("P", (1, 1))
+    image.putpalette((255.0 * blends).round().astype(int).ravel().tolist())
+    return image
 
 
 def hundredths(settings: dict) -> int:

@@ -49,10 +49,10 @@ def blocks(state: Mapping[str, Any]) -> dict[str, RockingBlock]:
         else RockingFrame(column, state["g"])
     )
     structures = {"column": column, "vase": FixedMassColumn(column, state["g"]), "frame": frame}
-    found = {name: of.block(state["r"]) for name, of in structures.items()}
+    rocking = {name: structure.block(state["r"]) for name, structure in structures.items()}
     if state["eq"] == "linearised":
-        found = {name: block.linear() for name, block in found.items()}
-    return found
+        return {name: block.linear() for name, block in rocking.items()}
+    return rocking
 
 
 def motion(state: Mapping[str, Any], records: Mapping[str, Record]) -> Pulse | Record:
@@ -78,11 +78,11 @@ def outcomes(state: Mapping[str, Any], records: Mapping[str, Record]) -> list[st
     """Return the outcomes of column, vase and frame, in the words of the page."""
     words = {"overturned": "overturns", "no uplift": "no uplift"}
     shaken = motion(state, records)
-    found = (
+    ends = [
         simulate(block, shaken, samples=2, **options(state, block)).outcome
         for block in blocks(state).values()
-    )
-    return [words.get(outcome, "survives") for outcome in found]
+    ]
+    return [words.get(end, "survives") for end in ends]
 
 
 def checked_cases(cases: list[dict], records: Mapping[str, Record]) -> list[dict]:
@@ -94,11 +94,11 @@ def checked_cases(cases: list[dict], records: Mapping[str, Record]) -> list[dict
         When the library computes other outcomes than a case promises.
     """
     for case in cases:
-        found = outcomes(case["state"], records)
-        if found != case["outcomes"]:
+        computed = outcomes(case["state"], records)
+        if computed != case["outcomes"]:
             raise ValueError(
                 f"src/explorer/cases.yaml: {case['title']!r} promises {case['outcomes']} for "
-                f"column, vase and frame; the library computes {found}: correct one of the two"
+                f"column, vase and frame; the library computes {computed}: correct one of the two"
             )
     return [{key: case[key] for key in ("title", "note", "state")} for case in cases]
 
@@ -114,9 +114,9 @@ def titles(motions: str) -> dict[str, str]:
         When it has a wave that is no shape of the library, or lacks one.
     """
     waves = set(re.findall(r'^  "([\w-]+)": \{', motions, re.MULTILINE))
-    if other := waves.symmetric_difference(SHAPES):
+    if odd := waves.symmetric_difference(SHAPES):
         raise ValueError(
-            f"src/explorer/motions.js and ground/shapes.py differ by {', '.join(sorted(other))}; "
+            f"src/explorer/motions.js and ground/shapes.py differ by {', '.join(sorted(odd))}; "
             "expected a wave for every shape, and a shape for every wave"
         )
     return {name: SHAPES[name].title for name in dict.fromkeys((*FINITE_SHAPES, *SHAPES))}
@@ -164,8 +164,8 @@ def policy(text: str) -> str:
     """Return the policy of a page: what is in it may run, by its hash, and nothing else."""
 
     def hashes(*opening: str) -> str:
-        found = (part for tag in opening for part in text.split(tag)[1:])
-        ends = [part.split("</script>")[0].split("</style>")[0].encode() for part in found]
+        parts = (part for tag in opening for part in text.split(tag)[1:])
+        ends = [part.split("</script>")[0].split("</style>")[0].encode() for part in parts]
         digests = (b64encode(hashlib.sha256(part).digest()).decode() for part in ends)
         return " ".join(f"'sha256-{digest}'" for digest in digests)
 

@@ -49,7 +49,7 @@ def functions(name: str) -> list[str]:
     if not inspect.ismodule(module := getattr(topheavy, name)):
         return [name]
     members = inspect.getmembers(module, inspect.isfunction)
-    inside = [part for part, of in members if of.__module__.startswith(module.__name__)]
+    inside = [part for part, function in members if function.__module__ == module.__name__]
     return [f"{name}.{part}" for part in inside if part[0] != "_"]
 
 
@@ -71,7 +71,7 @@ def member(full: str) -> pdoc.doc.Doc:
     source = getattr(content, "__module__", ""), name
     if inspect.isclass(content):
         doc = pdoc.doc.Class("topheavy", full, content, source)
-        doc.members = {name: each for name, each in doc.members.items() if shows(each)}
+        doc.members = {name: inner for name, inner in doc.members.items() if shows(inner)}
         doc.own_members = [*doc.members.values()]
         doc.inherited_members, doc.decorators, doc.bases = {}, [], []
         return doc
@@ -79,8 +79,8 @@ def member(full: str) -> pdoc.doc.Doc:
         doc = pdoc.doc.Function("topheavy", full, content, source)
         doc.name = full
         return doc
-    modules = [of for path, of in sorted(sys.modules.items()) if path.startswith("topheavy.")]
-    places = (pdoc.doc.Module(of).get(name) for of in modules if name in vars(of))
+    modules = [sys.modules[path] for path in sorted(sys.modules) if path.startswith("topheavy.")]
+    places = (pdoc.doc.Module(module).get(name) for module in modules if name in vars(module))
     text = next(doc.docstring for doc in places if doc and doc.docstring)
     return pdoc.doc.Variable(
         "topheavy", full, taken_from=source, docstring=text, default_value=content
@@ -94,10 +94,10 @@ def shows(doc: pdoc.doc.Doc) -> bool:
 
 def nested(doc: Any) -> Iterator[Any]:
     """Return the members of a module, and those of its classes."""
-    for each in doc.own_members:
-        yield each
-        if each.kind == "class":
-            yield from nested(each)
+    for inner in doc.own_members:
+        yield inner
+        if inner.kind == "class":
+            yield from nested(inner)
 
 
 class Annotation(str):
@@ -117,7 +117,8 @@ def as_written(doc: pdoc.doc.Function) -> inspect.Signature:
 
     signature = inspect.signature(doc.obj)
     parameters = [
-        each.replace(annotation=written(each.annotation)) for each in signature.parameters.values()
+        argument.replace(annotation=written(argument.annotation))
+        for argument in signature.parameters.values()
     ]
     returned = doc.name != "__init__" and written(signature.return_annotation)
     return signature.replace(

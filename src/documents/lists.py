@@ -89,9 +89,8 @@ class Site(Docs):
                 self.lines.setdefault(quote.target, []).append(f"{link}: {words}")
 
     def file(self, path: str, line: int = 0) -> str:
-        at = f"#L{line}" if line else ""
-        shown = path.replace("__", r"\_\_")  # no emphasis
-        return f"[{shown}{', line ' * bool(line)}{line or ''}](source/{path}.html{at})"
+        title, page = path.replace("__", r"\_\_"), f"source/{path}.html"  # no emphasis
+        return f"[{title}, line {line}]({page}#L{line})" if line else f"[{title}]({page})"
 
     def table(self, name: str) -> str:
         return f"[{name}](tables/{name}.csv)"
@@ -223,8 +222,8 @@ def _cells(run: Run, to: Docs) -> Iterator[str]:
         rows = list(csv.DictReader(text.splitlines()))
         script = makers[table]["script"]
         place = to.line(script, table, "compute")
-        made = f"{len(rows)} rows of {to.table(table)}, by {to.file(script)}"
-        yield from _entry(table, table, made, place, to)
+        origin = f"{len(rows)} rows of {to.table(table)}, by {to.file(script)}"
+        yield from _entry(table, table, origin, place, to)
         for anchor, (column, keys) in cells.items():
             known = dict(key.split("=", 1) for key in keys.split(";"))
             (row,) = (row for row in rows if known.items() <= row.items())
@@ -242,18 +241,18 @@ def _inputs(run: Run, to: Docs) -> Iterator[str]:
     sources = {source for quote in run.quotes for source in quote.source.split(" and ")}
     for source in sorted(source for source in sources if source.startswith("config:")):
         content: Any = run.config
-        node, at = root, 0
+        node, line = root, 0
         for key in source[7:].split("."):
             if isinstance(node, yaml.MappingNode):
                 content = content[key]
                 name, node = next(pair for pair in node.value if pair[0].value == key)
-                at = name.start_mark.line
+                line = name.start_mark.line
             else:
                 content, node = content[int(key)], node.value[int(key)]
-                at = node.start_mark.line
-        comment = lines[at].partition(" # ")[2]
+                line = node.start_mark.line
+        comment = lines[line].partition(" # ")[2]
         about = f". {comment}" if comment else ""
-        place = f". {to.file(path, at + 1)}"
+        place = f". {to.file(path, line + 1)}"
         value = _number(content) if not isinstance(content, dict) else "a section"
         yield from _entry(source, source[7:], value, about + place, to)
 
@@ -285,7 +284,7 @@ def _claim(row: dict[str, Any], run: Run, to: Docs) -> str:
     if row["verdict"] != "confirmed" or row["differs"]:
         condition = f"True if {row['condition']}. " if row.get("condition") else ""
         statement += f"<br>{condition}{row['remark']}"
-    figures = [name for name, one in run.captions.items() if row["id"] in one["claims"]]
+    figures = [name for name, caption in run.captions.items() if row["id"] in caption["claims"]]
     sources = [to.figure(name) for name in figures]
     if row["rule"]:
         finding = f"{row['rule']}.{row['finding']}"

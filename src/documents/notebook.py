@@ -118,8 +118,8 @@ if __name__ == "__main__":
         source = Path(snakemake.input.notebook)
         notebook = execute(source)
         modules = notebook.metadata.pop("modules")
-        made = {
+        texts = {
             snakemake.output.executed: json.dumps(notebook, indent=1, ensure_ascii=False) + "\n",
             snakemake.output.page: render(notebook, Path(snakemake.input.sheet).read_text("utf-8")),
         }
-        write(snakemake, made, modules)
+        write(snakemake, texts, modules)

@@ -9,7 +9,7 @@ import re
 from base64 import b64encode
 from hashlib import sha256
 from html import escape
-from itertools import count
+from itertools import chain, count
 from pathlib import Path
 from typing import Any
 
@@ -153,7 +153,7 @@ def site(job: Any) -> dict[str, str | bytes]:
         rules,
         {name: read(f"results/findings/{name}.json") for name in findings},
         job.params.config,
-        [quote for each in quotes.values() for quote in each],
+        [*chain.from_iterable(quotes.values())],
     )
     in_page = {name: page for name in captions for page in pages if f'fig-{name}"' in pages[page]}
     to, docs = lists.Site(quotes, in_page), lists.Docs()
@@ -180,7 +180,7 @@ def site(job: Any) -> dict[str, str | bytes]:
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        made = site(snakemake)
-        for path in made:
+        contents = site(snakemake)
+        for path in contents:
             Path(path).parent.mkdir(parents=True, exist_ok=True)
-        write(snakemake, made)
+        write(snakemake, contents)
