@@ -1,7 +1,7 @@
 """Compute the outcome of a rocking history independently with heyoka.
 
-The equation is that of the paper, integrated to rounding, in double or in long double. The side is
-a separate state. We avoid the cases in which heyoka's event detection is known to miss events:
+The equation is that of the paper, integrated to rounding. The side is a separate state. We avoid
+the cases in which heyoka's event detection is known to miss events:
 
 - just after uplift φ = 0 is a triple root: as long as the ground pushes outward no impact is
   possible, and the motion is integrated without events;
@@ -69,14 +69,13 @@ class Flights:
     and 2; parameter 0 is α. `gravity` is that over g, an expression in the parameters 3 and 4.
     """
 
-    def __init__(self, ground, linearised, precision, gravity=1.0, tolerance=0.0):
+    def __init__(self, ground, linearised, gravity=1.0, tolerance=0.0):
         phi, rate = hy.make_vars("phi", "rate")
         alpha = hy.par[0]
         if linearised:
             curvature = gravity * (phi - alpha) + ground
         else:
             curvature = -gravity * hy.sin(alpha - phi) + ground * hy.cos(alpha - phi)  # Eq. (23)
-        how = {"fp_type": precision}
         self.event, self.peak, self.highest = None, 0.0, 0.0
 
         # heyoka deep-copies its callbacks: functions stay the same, bound methods would not.
@@ -96,14 +95,12 @@ class Flights:
             self.highest = max(self.highest, integrator.d_output[0])
 
         down, up = hy.event_direction.negative, hy.event_direction.positive
-        stops = [hy.t_event(phi, callback=land, direction=down, cooldown=precision(0), **how)]
+        stops = [hy.t_event(phi, callback=land, direction=down, cooldown=0.0)]
         if not linearised:
             flat = phi - math.pi / 2.0
-            stops.append(
-                hy.t_event(flat, callback=fall, direction=up, cooldown=precision(0), **how)
-            )
-        turns = [hy.nt_event(rate, callback=turn, direction=down, **how)]
-        blank = {"state": [precision(0)] * 2, "tol": precision(tolerance), **how}
+            stops.append(hy.t_event(flat, callback=fall, direction=up, cooldown=0.0))
+        turns = [hy.nt_event(rate, callback=turn, direction=down)]
+        blank = {"state": [0.0, 0.0], "tol": tolerance}
         equations = [(phi, rate), (rate, curvature)]
         self.watched = hy.taylor_adaptive(equations, t_events=stops, nt_events=turns, **blank)
         self.unwatched = hy.taylor_adaptive(equations, **blank)
@@ -140,28 +137,27 @@ def _set(integrator, time, state, parameters):
 class PulseOracle:
     """Outcomes under one shape of pulse."""
 
-    def __init__(self, shape, linearised=False, precision=float):
-        self.shape, self.linearised, self.precision = shape, linearised, precision
+    def __init__(self, shape, linearised=False):
+        self.shape, self.linearised = shape, linearised
         self.half_turns, self.turns = SHAPES[shape]
         pulse = unit_pulse(shape, hy.par[2] * hy.time, hy.sin, hy.cos, hy.exp)
-        self.flights = Flights(hy.par[1] * pulse, linearised, precision)
+        self.flights = Flights(hy.par[1] * pulse, linearised)
 
-    def __call__(self, slenderness, restitution, amplitude, frequency) -> Found:
-        """Return the outcome for a pulse of amplitude A (g) and ω/p = `frequency`."""
-        real, flights = self.precision, self.flights
-        alpha, size, omega = real(slenderness), real(amplitude), real(frequency)
-        level = alpha if self.linearised else np.tan(alpha)
-        end = real(np.arctan2(real(0), real(-1))) * self.half_turns / omega
-        time, impacts, flights.peak = real(0), 0, real(0)
+    def __call__(self, alpha, restitution, size, omega) -> Found:
+        """Return the outcome for a pulse of amplitude `size` (g) and ω/p = `omega`."""
+        flights = self.flights
+        level = alpha if self.linearised else math.tan(alpha)
+        end = math.pi * self.half_turns / omega
+        time, impacts, flights.peak = 0.0, 0, 0.0
 
         def ground(at):
-            phase = np.asarray(at, dtype=real) * omega
+            phase = np.asarray(at) * omega
             return size * unit_pulse(self.shape, phase, np.sin, np.cos, np.exp)
 
         def first(holds, low, high):
             """Return when `holds` first becomes true in a scan that includes all turns of a."""
             turns = [turn / omega for turn in self.turns if low < turn / omega < high]
-            times = np.sort(np.append(np.linspace(low, high, 4000), turns)).astype(real)
+            times = np.sort(np.append(np.linspace(low, high, 4000), turns))
             found = holds(times)
             index = int(np.argmax(found))
             if index == 0:
@@ -183,7 +179,7 @@ class PulseOracle:
             state = flights.push(begin, time, (alpha, -side * size, omega))
             if state is None:
                 return Found(True, math.nan, impacts)
-            flights.highest = real(0)
+            flights.highest = 0.0
             while True:
                 now = ground(time)
                 parameters = (alpha, -side * size, omega)
@@ -194,7 +190,7 @@ class PulseOracle:
                     return ended(self.linearised, alpha, restitution, state, flights.peak, impacts)
                 impacts += int(flights.highest > LOW * alpha)
                 velocity, side = -state[1] * restitution, -side
-                state, flights.highest = (real(1e-24), velocity), real(0)
+                state, flights.highest = (1e-24, velocity), 0.0
                 pull = level - abs(ground(time))
                 cosine = 1.0 if self.linearised else np.cos(alpha)
                 if velocity <= 0.0 or (
@@ -209,7 +205,7 @@ class RecordOracle:
     def __init__(self, linearised=False, vertical=False):
         self.linearised = linearised
         weight = hy.par[3] + hy.par[4] * hy.time if vertical else 1.0
-        self.flights = Flights(hy.par[1] + hy.par[2] * hy.time, linearised, float, weight)
+        self.flights = Flights(hy.par[1] + hy.par[2] * hy.time, linearised, weight)
 
     def follow(self, slenderness, restitution, pieces) -> Found:
         """Return the outcome for pieces: how long, and a and gravity (g) at both ends of each."""

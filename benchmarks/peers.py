@@ -119,7 +119,7 @@ class Cvode:
         return solution.t[-1], tuple(solution.y[-1])
 
 
-heyoka = partial(Flights, hy.par[1] * hy.sin(hy.par[2] * hy.time), False, float, 1.0)
+heyoka = partial(Flights, hy.par[1] * hy.sin(hy.par[2] * hy.time), False, 1.0)
 
 
 def peak(flights, omega, amplitude):
