@@ -18,17 +18,17 @@ class Browser:
     """A tab of a browser, and all events that the browser told of."""
 
     def __init__(self, command, profile):
-        asked, self.out = os.pipe()
-        self.answers, told = os.pipe()
+        questions, self.out = os.pipe()
+        self.answers, replies = os.pipe()
         self.process = subprocess.Popen(
-            ["bash", "-c", f'exec "$@" 3<&{asked} 4>&{told}', "-", command, *OPTIONS.split()]
+            ["bash", "-c", f'exec "$@" 3<&{questions} 4>&{replies}', "-", command, *OPTIONS.split()]
             + [f"--user-data-dir={profile}", "--host-resolver-rules=MAP * ~NOTFOUND"],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
-            pass_fds=(asked, told),
+            pass_fds=(questions, replies),
         )
-        os.close(asked)
-        os.close(told)
+        os.close(questions)
+        os.close(replies)
         self.session, self.count, self.buffer, self.events = {}, 0, bytearray(), []
         target = self.ask("Target.createTarget", url="about:blank")["targetId"]
         attached = self.ask("Target.attachToTarget", targetId=target, flatten=True)
@@ -43,9 +43,9 @@ class Browser:
     def ask(self, method, **params):
         """Send a command and return its result; events that come first are kept."""
         self.count += 1
-        asked = {"id": self.count, "method": method, "params": params} | self.session
-        os.write(self.out, json.dumps(asked).encode() + b"\0")
-        while (answer := self.next_message()).get("id") != asked["id"]:
+        command = {"id": self.count, "method": method, "params": params} | self.session
+        os.write(self.out, json.dumps(command).encode() + b"\0")
+        while (answer := self.next_message()).get("id") != command["id"]:
             pass
         if "error" in answer:
             raise RuntimeError(f"{method}: {answer['error']['message']}")
@@ -63,14 +63,14 @@ class Browser:
         """Do something, wait for an event of this kind, and return what it tells."""
         seen = len(self.events)
         does()
-        while event not in (kinds := [one["method"] for one in self.events[seen:]]):
+        while event not in (kinds := [heard["method"] for heard in self.events[seen:]]):
             self.next_message()
         return self.events[seen + kinds.index(event)]["params"]
 
     def do(self, script, *values):
         """Evaluate a script of the page, with values put in as JSON, and return what it gives."""
-        for place, given in enumerate(values):
-            script = script.replace(f"{{{place}}}", json.dumps(given))
+        for place, value in enumerate(values):
+            script = script.replace(f"{{{place}}}", json.dumps(value))
         how = {"awaitPromise": True, "returnByValue": True}
         answer = self.ask("Runtime.evaluate", expression=script, **how)
         if "exceptionDetails" in answer:
@@ -80,8 +80,8 @@ class Browser:
     @property
     def requests(self):
         """The addresses that were asked of the network."""
-        asked = [e["params"] for e in self.events if e["method"] == "Network.requestWillBeSent"]
-        return [url for e in asked if not (url := e["request"]["url"]).startswith(LOCAL)]
+        sent = [e["params"] for e in self.events if e["method"] == "Network.requestWillBeSent"]
+        return [url for e in sent if not (url := e["request"]["url"]).startswith(LOCAL)]
 
     @property
     def errors(self):

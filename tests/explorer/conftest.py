@@ -36,7 +36,7 @@ DROP = """(() => {
 class Page(Browser):
     """The page in a tab that is driven line by line."""
 
-    has_only_computed = False
+    kept = None
 
     def open(
         self, address="g=1", *, width=1440, height=900, dark=False, moves=False, until="histories"
@@ -57,11 +57,11 @@ class Page(Browser):
         self.visit(self.address + (f"#{address}" if address else ""))
         self.settle(until)
 
-    def open_to_compute(self):
-        """Have the page's functions: one page serves all tests in a row that only call these."""
-        if not self.has_only_computed:
-            self.open()
-        self.has_only_computed = True
+    def open_once(self, address="g=1"):
+        """Have the page at an address: it serves all tests in a row that do not change it."""
+        if self.kept != address:
+            self.open(address)
+        self.kept = address
 
     def begin(self, change):
         """Show the state that differs from the usual one by a change, with all its numbers."""
@@ -73,7 +73,7 @@ class Page(Browser):
         self.ask("Emulation.setDeviceMetricsOverride", **size)
 
     def visit(self, url):
-        self.has_only_computed = False
+        self.kept = None
         self.after(lambda: self.ask("Page.navigate", url=url), "Page.loadEventFired")
 
     def wait(self, condition):
@@ -95,19 +95,11 @@ class Page(Browser):
         self.wait("!document.getElementById('reading').textContent")
         return self.do("document.getElementById('record-error').textContent")
 
-    def choose(self, path, does):
-        """Do what opens the browser's dialog of files, and choose one in it."""
-        self.ask("Page.setInterceptFileChooserDialog", enabled=True)
-        node = self.after(does, "Page.fileChooserOpened")["backendNodeId"]
-        self.ask("DOM.setFileInputFiles", backendNodeId=node, files=[str(path)])
-        self.ask("Page.setInterceptFileChooserDialog", enabled=False)
-
-    def press(self, key, code, text=""):
+    def press(self, key, code):
         """Press a key of the keyboard, and let it go."""
-        of = {"key": key, "code": key, "windowsVirtualKeyCode": code}
-        kind = {"type": "keyDown", "text": text} if text else {"type": "rawKeyDown"}
-        self.ask("Input.dispatchKeyEvent", **kind, **of)
-        self.ask("Input.dispatchKeyEvent", type="keyUp", **of)
+        stroke = {"key": key, "code": key, "windowsVirtualKeyCode": code}
+        for kind in ("rawKeyDown", "keyUp"):
+            self.ask("Input.dispatchKeyEvent", type=kind, **stroke)
 
 
 @pytest.fixture(scope="session")
@@ -124,15 +116,15 @@ def text(records):
 @pytest.fixture(scope="session")
 def browser(text, tmp_path_factory):
     names = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-    found = next(filter(None, map(shutil.which, names)), None)
-    if found is None:
+    command = next(filter(None, map(shutil.which, names)), None)
+    if command is None:
         pytest.skip(f"none of {', '.join(names)} is on the PATH")
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
     file.write_text(text, encoding="utf-8", newline="\n")
-    one = Page(found, file.parent / "profile")
-    one.address = file.as_uri()
-    yield one
-    one.close()
+    tab = Page(command, file.parent / "profile")
+    tab.address = file.as_uri()
+    yield tab
+    tab.close()
 
 
 @pytest.fixture(scope="session")

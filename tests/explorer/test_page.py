@@ -100,55 +100,17 @@ def test_every_control_has_a_name_and_is_reached_by_the_keyboard(browser):
     assert all(reached)
 
 
-def reach(browser, is_there):
-    """Press the tabulator until the focus is where a condition on `at` holds."""
-    for _ in range(80):
-        browser.press("Tab", 9)
-        if browser.do(f"(at => !!({is_there}))(document.activeElement)"):
-            return
-    raise AssertionError(f"no Tab reaches {is_there}")
-
-
-def test_everything_is_done_with_the_keyboard_only(browser, tmp_path, square):
-    browser.open()
-    browser.do("document.activeElement.blur()")
-    reach(browser, "at.closest('#cases') && at.previousElementSibling")
-    browser.press("Enter", 13, "\r")
-    assert browser.do("CASES.indexOf(encode(state))") == 1
-    browser.settle()
-    reach(browser, "at.id === 'shape'")
-    browser.press("End", 35)
-    assert browser.do("state.shape") == "record"
-    path = tmp_path / "mine.csv"
-    path.write_text(square(0.3), encoding="utf-8")
-    reach(browser, "at.textContent.startsWith('Open a record')")
-    browser.choose(path, lambda: browser.press("Enter", 13, "\r"))
-    browser.wait("state.record === 'mine'")
-    browser.settle()
-    reach(browser, "at.id === 'spectrum'")
-    before = browser.do("planeOf(state, fileOf(state)).here")
-    for key, code in (("ArrowUp", 38), ("ArrowRight", 39), ("ArrowRight", 39), ("ArrowLeft", 37)):
-        browser.press(key, code)
-    after = browser.do("planeOf(state, fileOf(state)).here")
-    assert after["y"] / before["y"] == pytest.approx((12 / 0.93) ** (1 / 36), rel=1e-3)
-    assert after["x"] / before["x"] == pytest.approx(40 ** (1 / 48), rel=1e-3)
-    reach(browser, "at.tagName === 'SUMMARY'")
-    browser.press("Enter", 13, "\r")
-    assert browser.do("document.activeElement.parentElement.open") is True
-    assert browser.errors == []
-
-
 # Address and input -------------------------------------------------------------------------------
 
 
 def test_address_holds_the_state(browser):
-    given = (
+    address = (
         "width=0.8&height=4.8&g=inf&L=4&r=0.9&cap=fixed&vase=shown&eq=linearised"
         "&shape=one-sine&a=0.55&T=0.9"
     )
-    browser.open(given)
-    assert browser.do("encode(state)") == given
-    browser.wait(f"location.hash === '#{given}'")
+    browser.open(address)
+    assert browser.do("encode(state)") == address
+    browser.wait(f"location.hash === '#{address}'")
     assert browser.do("document.getElementById('g').value") == "∞"
     # while the state before settles, which writes its own address
     browser.do("location.hash = 'toString=1&__proto__=2&shape=one-sine&a=0.2'; settle()")
@@ -174,7 +136,7 @@ IN_ADDRESS = """Object.keys(FIELDS).filter(key => {
 
 
 def test_what_is_no_finite_number_is_refused_in_every_field(browser):
-    browser.open_to_compute()
+    browser.open_once()
     taken = {text: browser.do(IN_ADDRESS, text) for text in NUMBERS}
     assert {text: keys for text, keys in taken.items() if keys} == {"1e999": ["g"]}  # γ → ∞
 
@@ -209,7 +171,7 @@ EXTREMES = """Object.keys(SHAPES).concat("record").flatMap(shape => CHOICES.eq.f
 
 
 def test_histories_are_finite_at_both_ends_of_every_field(browser):
-    browser.open_to_compute()
-    found = browser.do(EXTREMES)
-    assert len(found) > 400
-    assert [row for row in found if not row[-1]] == []
+    browser.open_once()
+    rows = browser.do(EXTREMES)
+    assert len(rows) > 400
+    assert [row for row in rows if not row[-1]] == []

@@ -20,7 +20,7 @@ OMEGA = 2.0 * math.pi / WEAK["T"]
 @pytest.fixture
 def page(browser):
     """The page at the weak pulse."""
-    browser.open("g=1&a=0.195")
+    browser.open_once("g=1&a=0.195")
     return browser
 
 
@@ -73,81 +73,24 @@ CELLS = """(() => {
   }
   return found;
 })()"""
-LINES = """[2, 1].map((bit, k) => { // of the frame, then of the column
-  const {codes, crossings, columns, rows, lines} = spectrumChart.cells, [line, , dash] = lines[k];
-  const {ctx} = spectrumChart.chart;
-  ctx.setTransform(1, 0, 0, 1, 0, 0);
-  ctx.setLineDash([]);
-  ctx.lineWidth = 0.01;
-  ctx.lineCap = "round";
-  let edges = 0, wrong = 0;
-  for (let i = 0; i + 1 < columns; i++) for (let j = 0; j + 1 < rows; j++) {
-    const at = i + columns * j;
-    for (const up of [0, 1]) {
-      const isEdge = ((codes[at] ^ codes[at + (up ? columns : 1)]) & bit) > 0;
-      const share = crossings[crossingAt(codes, at, bit, up)];
-      const [x, y] = [i + 0.5 + (1 - up) * share, j + 0.5 + up * share];
-      edges += isEdge;
-      wrong += isEdge !== ctx.isPointInStroke(line, x, y);
-    }
-  }
-  return [dash.length, edges, wrong];
-})"""
-CROSSINGS = """(() => { // how many crossings have the boundary within a sixteenth of the way
-  const {codes, crossings, columns, rows} = spectrumChart.cells, plane = planeOf(state);
-  const blocks = structuresOf(state);
-  const place = ([low, high], share, isLog) =>
-    isLog ? low * (high / low) ** share : low + (high - low) * share;
-  const falls = (bit, x, y) => fallsAt(state, null, plane, blocks, bit,
-    place(plane.x, x / columns, false), place(plane.y, y / rows, true));
-  let right = 0, all = 0;
-  for (let k = 0; k + 1 < codes.length; k += 7) for (const bit of [1, 2]) {
-    if (k % columns === columns - 1 || !((codes[k] ^ codes[k + 1]) & bit)) continue;
-    const x = (k % columns) + 0.5 + crossings[crossingAt(codes, k, bit, 0)];
-    const y = Math.floor(k / columns) + 0.5;
-    right += falls(bit, x - 0.04, y) !== falls(bit, x + 0.04, y);
-    all += 1;
-  }
-  return [right, all];
-})()"""
 
 
-def test_map_has_the_colours_of_its_key_and_the_lines_of_its_boundaries(browser):
+def test_map_has_the_colours_of_its_key(browser):
     browser.open("g=4", until="map")
-    found = browser.do(CELLS)
-    for wrong, right in found:
-        assert right > 3, found
+    counts = browser.do(CELLS)
+    for wrong, right in counts:
+        assert right > 3, counts
         assert wrong < 0.1 * right  # under "you are here"
-    (solid, *frame), (dotted, *column) = browser.do(LINES)
-    assert solid == 0 < dotted
-    for edges, wrong in (frame, column):
-        assert edges > 100
-        assert wrong == 0
-    right, crossings = browser.do(CROSSINGS)
-    assert right == crossings > 10
 
 
 def test_map_has_the_place_of_the_case_and_a_press_goes_to_another(page):
+    page.kept = None
     x, y = page.do("[spectrumChart.plane.here.x, spectrumChart.plane.here.y]")
     assert x == pytest.approx(OMEGA / COLUMN.frequency_parameter, rel=1e-9)
     assert y == pytest.approx(WEAK["a"] / math.tan(COLUMN.slenderness), rel=1e-9)
     page.do("pick(4, 2)")
     x, y = page.do("Object.values(planeOf(state).here)")
     assert (x, y) == pytest.approx((4.0, 2.0), rel=1e-3)
-
-
-MAP = "[...spectrumChart.cells.codes]"
-
-
-def test_map_follows_the_mass_while_it_is_dragged(browser):
-    browser.open(until="map")
-    before = browser.do(MAP)
-    browser.do("change({g: 3}, false), redraw(), change({g: 4}, false), redraw()")
-    browser.settle("map")
-    whole = browser.do(MAP)
-    assert 0.5 < sum(map(int.__eq__, before, whole)) / len(whole) < 0.99
-    browser.begin({"g": 4})
-    assert browser.do(MAP) == whole
 
 
 def test_late_answer_to_another_state_is_not_shown(browser):
@@ -198,7 +141,7 @@ def numbers_in(text):
     return [float(number) for number in re.findall(r"-?[\d.]+(?:e-?\d+)?", text)]
 
 
-@pytest.mark.parametrize("time", [0.9, 1.7, 2.4])
+@pytest.mark.parametrize("time", [0.9, 1.7])
 def test_pose_is_that_of_the_instant(page, responses, time):
     page.do("pause(), show({0})", time)
     turned = {"single": 0, "pot": 1, "left": 2, "right": 2}
@@ -215,28 +158,15 @@ def test_pose_is_that_of_the_instant(page, responses, time):
     assert page.do("document.getElementById('clock').textContent") == f"{time:.2f} s"
 
 
-def test_ground_moves_in_metres_and_its_arrow_has_the_sign_of_its_acceleration(page):
-    moved, sign = [], []
-    for share in (0.02, 0.5):
-        page.do("pause(), show({0})", share * WEAK["T"])
-        moved.append(numbers_in(page.do("scene.moving.getAttribute('transform')"))[0])
-        path = page.do("scene.svg.querySelector('.arrow').getAttribute('d')")
-        sign.append(float(re.search(r"h(-?[\d.]+)", path)[1]))
-    # twice integrated, but for what a seismometer of a long period leaves out
-    most = 2.0 * WEAK["a"] * 9.81 / OMEGA**2
-    assert 0.5 * most < moved[1] < most
-    assert sign[0] > 0.0 > sign[1]
-
-
 # The numbers -------------------------------------------------------------------------------------
 
 
 def required(block_number, response, ground):
     """The largest required friction of a history between impacts, by the library."""
     moving = np.abs(response.rotation) > 1e-9
-    given = response.rotation[moving], response.velocity[moving], ground[moving]
+    states = response.rotation[moving], response.velocity[moving], ground[moving]
     frame = RockingFrame(COLUMN, float(block_number > 0))  # without a cap beam, two columns
-    forces = forces_at(frame, Cap(5.0, 0.1 * COLUMN.half_height), *given)
+    forces = forces_at(frame, Cap(5.0, 0.1 * COLUMN.half_height), *states)
     return np.nanmax(forces.friction_demand)
 
 
