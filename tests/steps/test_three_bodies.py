@@ -100,8 +100,3 @@ def test_contacts_that_come_apart_are_an_error(monkeypatch):
     monkeypatch.setattr("steps.shared.three_bodies.TOLERANCE", 1e-2)
     with pytest.raises(ArithmeticError, match="a column is upright and another body is"):
         rocked(PULSES[2], duration=3.0)
-
-
-def test_span_of_overlapping_columns_is_refused():
-    with pytest.raises(ValueError, match=r"span is 0\.1 m; expected more than the width of a col"):
-        simulate_three_bodies(FRAME, Cap(0.1, 0.15), PULSES[2], duration=1.0)
