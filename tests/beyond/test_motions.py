@@ -1,12 +1,13 @@
 """Motions, break-even and records: the sweep, numbers by hand, and findings that break."""
 
 import math
-from itertools import combinations
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from derivation import consequences
+from derivation.notation import R, alpha, gamma, m_c
 from steps.beyond import break_even, motions, records
 from steps.shared import filtered_noise, harmonic, samples, sweep
 from steps.shared.filtered_noise import Soil
@@ -33,17 +34,6 @@ def shards(tmp_path_factory):
         shard = path.stem.removeprefix("motions_")
         path.write_bytes(sweep.compute(SETTINGS, EVEN, CONFIG["structures"], shard)["outcomes"])
     return [str(path) for path in paths]
-
-
-def test_models_are_four_sets_noise_and_vertical_motion():
-    names = list(sweep.models(CONFIG["motions"]))
-    assert (names[:4], len(names)) == (sweep.sets(CONFIG["motions"]), 11)
-    assert (names[3], names[-1]) == (LAST, LAST + sweep.VERTICAL)
-    counts = {name: len(each) for name, each in sweep.models(SETTINGS).items()}
-    assert list(counts.values()) == [4, 4, 4, 4, 3, 4]
-    record, up = sweep.components(sweep.models(SETTINGS)[LAST + sweep.VERTICAL][1], SETTINGS)
-    assert record.name == sweep.models(SETTINGS)[LAST][1].record().name != up.name
-    assert up.peak_acceleration == pytest.approx(2.0 / 3.0 * record.peak_acceleration)
 
 
 def test_each_model_of_noise_has_a_seed_of_its_own():
@@ -73,8 +63,8 @@ def test_outcomes_of_all_shards_are_those_of_single_motions(shards):
     still = sweep.Question([COLUMN.block()], np.array([9.0]), of_peaks=True)
     assert sweep.answers([still], record, None) == [math.inf]
     lowered, stated = (sweep.outcomes(shards, f"{LAST}{part}") for part in (": lowered", ""))
-    same = EVEN["velocities"].index(SETTINGS["velocity"])
-    assert (lowered[:, [0, 3], same] == stated[:, [0, 2], 0]).all()
+    place_of_velocity = EVEN["velocities"].index(SETTINGS["velocity"])
+    assert (lowered[:, [0, 3], place_of_velocity] == stated[:, [0, 2], 0]).all()
 
 
 def test_a_motion_that_leaves_the_ground_in_free_fall_is_left_out():
@@ -86,39 +76,19 @@ def test_a_motion_that_leaves_the_ground_in_free_fall_is_left_out():
 
 def test_a_block_with_lower_restitution_has_the_stated_share():
     blocks = sweep.restitution_question(SETTINGS, EVEN, COLUMN).blocks
-    own, of_frame = COLUMN.restitution, RockingFrame(COLUMN, 1.0).restitution
-    expected = [own, 0.9 * own, 0.8 * own, of_frame, 0.95 * of_frame, 0.9 * of_frame]
+    r, r_frame = COLUMN.restitution, RockingFrame(COLUMN, 1.0).restitution
+    expected = [r, 0.9 * r, 0.8 * r, r_frame, 0.95 * r_frame, 0.9 * r_frame]
     assert [block.restitution for block in blocks[:-2]] == pytest.approx(expected)
-    assert own < blocks[-2].restitution < 1.0
-    assert of_frame < blocks[-1].restitution < blocks[-2].restitution
+    assert r < blocks[-2].restitution < 1.0
+    assert r_frame < blocks[-1].restitution < blocks[-2].restitution
 
 
-@pytest.mark.parametrize("gamma", [0.0, 1.0, 4.0])
 @pytest.mark.parametrize("contact", [0.0, 0.4, 1.0])
-def test_restitution_within_contacts_balances_momentum(gamma, contact):
-    """Column of mass 1 rocks about its left, then its right corner; unknown: ω₂, two impulses."""
-    b, h = COLUMN.half_width, COLUMN.half_height
-    base, top = np.array([contact * b, 0.0]), np.array([-contact * b, 2.0 * h])
-    middle, inertia = np.array([0.0, h]), (b**2 + h**2) / 3.0
-
-    def turned(point, pivot):  # velocity of a point for ω = 1
-        return np.array([-(point - pivot)[1], (point - pivot)[0]])
-
-    left, right = np.array([-b, 0.0]), np.array([b, 0.0])
-    cap_before, cap_after = turned(np.array([b, 2 * h]), left), turned(np.array([-b, 2 * h]), right)
-    # columns: ω₂, impulse of the ground (x, y), impulse of the cap beam on the column (x, y)
-    matrix, known = np.zeros((5, 5)), np.zeros(5)
-    matrix[:2, 0], matrix[:2, 1:3], matrix[:2, 3:] = turned(middle, right), -np.eye(2), -np.eye(2)
-    known[:2] = turned(middle, left)
-    matrix[2:4, 0], matrix[2:4, 3:], known[2:4] = gamma * cap_after, np.eye(2), gamma * cap_before
-    arms = base - middle, top - middle
-    matrix[4] = [inertia, *(sign * arm for at in arms for sign, arm in ((1, at[1]), (-1, at[0])))]
-    known[4] = inertia
-    frame = RockingFrame(COLUMN, gamma)
-    ratio = np.linalg.solve(matrix, known)[0]
-    assert sweep.restitution_within(frame, contact) == pytest.approx(ratio)
-    if contact == 1.0:
-        assert ratio == pytest.approx(frame.restitution)
+def test_restitution_within_contacts_follows_the_derivation(contact):
+    numbers = {R: COLUMN.size, alpha: COLUMN.slenderness, gamma: 4.0, m_c: 1.0}
+    derived = consequences.restitution_within().subs(numbers | {consequences._within: contact})
+    ratio = sweep.restitution_within(RockingFrame(COLUMN, 4.0), contact)
+    assert ratio == pytest.approx(float(derived))
 
 
 def test_numbers_of_a_row_are_those_of_its_outcomes():
@@ -146,18 +116,6 @@ def test_gain_and_ratio_are_those_of_the_outcomes():
     assert pair["ratio"] == row["ratio"]
 
 
-def test_tables_are_of_every_model_and_pair_of_frames(shards, monkeypatch):
-    monkeypatch.setattr(motions, "check_sample", list)
-    monkeypatch.setattr(motions, "gains", lambda *_: [])  # four motions reach no median
-    with np.errstate(divide="ignore", invalid="ignore"):
-        found = motions.compute(SETTINGS, CONFIG["structures"], shards)
-    named = [row["model"] for row in found["probabilities"] if "factor" not in row["model"]]
-    assert named == [*sweep.models(SETTINGS)]
-    frames = [0.0, *SETTINGS["mass_ratios"]]
-    pairs = [(row["lighter"], row["heavier"]) for row in found["pairs"]]
-    assert pairs == [*combinations(frames, 2)] * len(SETTINGS["structures"])
-
-
 def test_gains_are_by_structure_and_may_rise_with_the_height():
     gains = pd.DataFrame(
         [
@@ -168,9 +126,9 @@ def test_gains_are_by_structure_and_may_rise_with_the_height():
         columns=["model", "structure", "mass_ratio", "gain", "gain_low", "gain_high"],
     )
     tables = {name: pd.DataFrame([row]) for name, row in TABLES.items()} | {"gains": gains}
-    found = motions.findings(*tables.values(), SETTINGS, CONFIG["structures"])
-    assert found["gain_rises_with_height"] == {"value": 1, "error": 0, "unit": "", "models": 2}
-    ends = [found["gain_tall"][name] for name in ("least", "most", "low", "high")]
+    findings = motions.findings(*tables.values(), SETTINGS, CONFIG["structures"])
+    assert findings["gain_rises_with_height"] == {"value": 1, "error": 0, "unit": "", "models": 2}
+    ends = [findings["gain_tall"][name] for name in ("least", "most", "low", "high")]
     assert ends == pytest.approx([0.2, 0.3, 0.15, 0.35])
 
 
@@ -178,8 +136,8 @@ def test_an_overturned_structure_counts_as_above_the_median():
     peaks = np.full((3, 6, 1), 0.2)
     peaks[:2, 0] = math.inf
     settings = SETTINGS | {"rotations": {"velocities": [0.6]}}
-    found = motions.rotations("model", peaks, settings)
-    assert [row["median_peak"] for row in found] == [math.inf] + [0.2] * 5
+    rows = motions.rotations("model", peaks, settings)
+    assert [row["median_peak"] for row in rows] == [math.inf] + [0.2] * 5
     first = np.arange(125.0)[::-1, None, None]
     row, *_ = motions.rotations("model", np.repeat(first, 6, axis=1), settings)
     ends = [row[f"median_peak{end}"] for end in ("_low", "", "_high")]
@@ -213,10 +171,10 @@ def test_one_row_is_enough_to_refute(table, column, number, false):
     tables["gains"]["structure"] = ["trilith", "temple"]
     tables[table].loc[1, column] = number
     settings = SETTINGS | {"structures": ["temple", "trilith"]}
-    found = motions.findings(*tables.values(), settings, CONFIG["structures"])
-    assert broken(found) - {"order_of_frames_can_turn"} == false
-    assert found["outcomes_that_change"]["value"] == 0.05
-    assert found["gain"]["least"] == found["gain"]["most"] == 0.2
+    findings = motions.findings(*tables.values(), settings, CONFIG["structures"])
+    assert broken(findings) - {"order_of_frames_can_turn"} == false
+    assert findings["outcomes_that_change"]["value"] == 0.05
+    assert findings["gain"]["least"] == findings["gain"]["most"] == 0.2
 
 
 def test_heavier_frames_that_overturn_more_often_qualify_the_order():
@@ -224,10 +182,10 @@ def test_heavier_frames_that_overturn_more_often_qualify_the_order():
     tables["gains"]["structure"] = ["trilith", "temple"]
     tables["harmonic"].loc[1, ["lighter", "difference", "difference_low"]] = [2.0, 0.05, 0.01]
     settings = SETTINGS | {"structures": ["temple", "trilith"]}
-    found = motions.findings(*tables.values(), settings, CONFIG["structures"])
-    assert broken(found) == {"probability_is_lower"}
-    assert found["probability_is_lower"]["holds_when"]
-    worst = found["order_of_frames_can_turn"]
+    findings = motions.findings(*tables.values(), settings, CONFIG["structures"])
+    assert broken(findings) == {"probability_is_lower"}
+    assert findings["probability_is_lower"]["holds_when"]
+    worst = findings["order_of_frames_can_turn"]
     assert (worst["holds"], worst["lighter"], worst["difference"]) == (True, "2", 0.05)
 
 
@@ -265,9 +223,9 @@ def test_end_is_that_of_the_outcomes(monkeypatch):
     monkeypatch.setattr(break_even, "check_sample", list)
     settings = EVEN | {"lowered": [0.1, 0.2]}
     eight = SETTINGS | {"motions": 8}
-    found = break_even.compute(settings, eight, CONFIG["structures"], [])
-    assert found["ends"].end.to_numpy() == pytest.approx(0.15)
-    benefits = found["benefits"].query("lowered == 'both'")
+    results = break_even.compute(settings, eight, CONFIG["structures"], [])
+    assert results["ends"].end.to_numpy() == pytest.approx(0.15)
+    benefits = results["benefits"].query("lowered == 'both'")
     assert benefits.column.tolist() == [0.75, 0.5, 0.25] * 2
     assert (benefits.frame == 0.375).all()
 
@@ -288,13 +246,13 @@ def test_one_velocity_or_change_is_enough_to_refute(end, low, false):
         | {"benefit": [0.1, 0.06, 0.02, 0.15], "benefit_low": [*low, -0.01, 0.1]}
         | {"benefit_high": [0.14, 0.1, 0.05, 0.2]}
     )
-    found = break_even.findings(ends, benefits, EVEN)
-    assert broken(found) == false
-    limits = found["benefit_ends"]
+    findings = break_even.findings(ends, benefits, EVEN)
+    assert broken(findings) == false
+    limits = findings["benefit_ends"]
     assert (limits["low"], limits["high"]) == (0.04, 0.1)
     names = ("benefit", "remaining", "remaining_of_both", "within")
-    numbers = [found[f"{name}_near_fault"] for name in names]
-    assert [one["value"] for one in numbers] == [0.1, 0.02, 0.06, 0.15]
+    numbers = [findings[f"{name}_near_fault"] for name in names]
+    assert [number["value"] for number in numbers] == [0.1, 0.02, 0.06, 0.15]
     assert (numbers[1]["low"], numbers[1]["high"]) == (-0.01, 0.05)
 
 
@@ -310,11 +268,11 @@ def test_counts_are_of_outcomes_that_are_known(monkeypatch):
     settings |= {"sizes": grids | {"points": 1}, "factors": grids | {"points": 4}}
     settings |= {"by_structure": {"names": ["trilith"], "factors": 4}}
     settings |= {"capacity": {"structure": "temple"}}
-    made = records.compute(settings, {"tightened": 1e-12}, CONFIG["structures"], ["one"])
-    (row,) = made["table"]
+    results = records.compute(settings, {"tightened": 1e-12}, CONFIG["structures"], ["one"])
+    (row,) = results["table"]
     names = ("only_lighter", "only_heavier")
     assert [row[name] for name in names] == [1, 1]
-    assert made["structures"] == [{"structure": "trilith"} | row]
+    assert results["structures"] == [{"structure": "trilith"} | row]
     known = {
         0.05: {"one": (0.4, 0.5), "two": (0.5, 0.4), "three": (0.4, 0.44)},
         0.1: {"one": (0.4, 0.6), "two": (0.5, 0.5), "three": (0.4, math.nan)},
@@ -326,15 +284,14 @@ def test_counts_are_of_outcomes_that_are_known(monkeypatch):
         for place, gamma in enumerate((0.0, 1.0))
     ).set_axis(["record", "mass_ratio", "window", "capacity"], axis=1)
     settings["capacity"]["windows"] = [0.05, 0.1]
-    found = records.findings(
-        pd.DataFrame([row]), pd.DataFrame(made["structures"]), capacity, settings
-    )
-    holds = {name: one["holds"] for name, one in found.items()}
+    structures = pd.DataFrame(results["structures"])
+    findings = records.findings(pd.DataFrame([row]), structures, capacity, settings)
+    holds = {name: finding["holds"] for name, finding in findings.items()}
     assert not any(holds.values())
-    assert found["pair_0_1"] | {"only_lighter": 1, "only_heavier": 1} == found["pair_0_1"]
-    undecided = found["capacities_are_decided"]
+    assert findings["pair_0_1"] | {"only_lighter": 1, "only_heavier": 1} == findings["pair_0_1"]
+    undecided = findings["capacities_are_decided"]
     assert (undecided["undecided"], undecided["undecided_at_the_stated_window"]) == (1, 0)
-    gain = found["gain_1"]
+    gain = findings["gain_1"]
     ends = [gain[n] for n in ("least", "most", "median", "lowest_median", "highest_median")]
     assert ends == pytest.approx([-0.2, 0.5, 0.1, 0.1, 0.25])
 
@@ -368,8 +325,8 @@ def test_outcomes_that_a_nudge_changes_are_not_known():
         middle = 0.5 * (low + high)
         fell = judge(COLUMN, record.scaled(middle)).overturned
         low, high = (low, middle) if fell else (middle, high)
-    found = records.overturned(COLUMN, record, np.array([0.1, low, 2.0]), 3e-12)
-    assert found.tolist() == [-1, 0, 1]
+    outcomes = records.overturned(COLUMN, record, np.array([0.1, low, 2.0]), 3e-12)
+    assert outcomes.tolist() == [-1, 0, 1]
 
 
 def test_a_solver_that_differs_stops_the_step(monkeypatch):
