@@ -11,7 +11,7 @@ from scipy.stats import binom, norm
 import topheavy as th
 from steps.beyond import colonnades, engine, gaps, rigid_bodies, stones, test_plan
 from steps.beyond.inclinations import free_rocking, overturn
-from steps.beyond.rigid_bodies import LOOK, Bodies, motion, overturns
+from steps.beyond.rigid_bodies import Bodies, motion, overturns
 from steps.beyond.stones import BEAM, HINGED, OPEN, Stones
 from tests.cases import COLUMN, CONFIG
 
@@ -72,14 +72,6 @@ def test_ground_that_accelerates_forward_tilts_it_back(sign):
     assert last[0] == pytest.approx(expected, rel=0.05)
 
 
-def test_free_rocking_of_a_history_that_is_known():
-    response = th.simulate(COLUMN, rotation=0.08, samples=40_000)
-    spacing = response.time[1]
-    time, roots = free_rocking(response.rotation, spacing, COLUMN)
-    assert time == pytest.approx(response.impact_times[0], rel=1e-5)
-    assert roots[:2] == pytest.approx([COLUMN.restitution] * 2, rel=1e-5)
-
-
 @pytest.mark.parametrize(
     ("inclined", "falls"),
     [
@@ -116,24 +108,13 @@ def test_joints_decide_at_which_push_a_colonnade_uplifts(joints, uplift, factor)
 
 @pytest.mark.parametrize(
     ("module", "package", "message"),
-    [
-        ("3.17.0", "4.0.1", "the module mujoco is 3.17.0, and the installed mujoco-core is 4.0.1"),
-        ("4.0.0", "4.0.0", "MuJoCo is 4.0.0"),
-        ("3.12.1", "3.12.1", "expected mujoco-core 4.0.1 or newer"),
-    ],
+    [("3.17.0", "4.0.1", "the module mujoco is 3.17.0"), ("4.0.0", "4.0.0", "MuJoCo is 4.0.0")],
 )
 def test_another_or_an_older_mujoco_stops_the_step(monkeypatch, module, package, message):
     monkeypatch.setattr(mujoco, "__version__", module)
     monkeypatch.setattr(rigid_bodies, "version", lambda _: package)
     with pytest.raises(SystemExit, match=message):
         rigid_bodies.checked_version()
-
-
-@pytest.mark.parametrize("number", ["4.0.1", "4.1.0", "5.0.0rc1"])
-def test_mujoco_is_named_with_its_version(monkeypatch, number):
-    monkeypatch.setattr(mujoco, "__version__", number)
-    monkeypatch.setattr(rigid_bodies, "version", lambda _: number)
-    assert rigid_bodies.checked_version() == f"MuJoCo {number}"
 
 
 STACK = th.FixedMassColumn(TRILITH, 0.434, cap_depth=0.22)
@@ -156,14 +137,6 @@ def test_in_space_a_long_push_overturns_from_the_uplift_by_hand_on(name, factor)
         "constant", factor * by_hand.uplift_acceleration, angular_frequency=math.pi / 2.0
     )
     assert overturns(bodies, pulse, direction) is (factor > 1.0)
-
-
-def test_motion_keeps_the_rotations_of_each_look():
-    bodies = Bodies(TRILITH, 0.11, 0.434, LINTEL, 1.6e-3)
-    looks = motion(bodies, lambda time: np.full_like(time, 0.5), 0.5)
-    times, turned = zip(*looks, strict=True)
-    assert np.diff(times) == pytest.approx(LOOK * bodies.seconds)
-    assert turned[0][0, 2, 2] > 0.999 > turned[-1][0, 2, 2]
 
 
 RESTITUTION = pd.DataFrame(
@@ -201,9 +174,9 @@ def test_free_rocking_apart_from_theory_stops_the_step(name, changed):
 )
 def test_one_other_outcome_breaks_the_same_outcomes(row, holds, holds_when):
     table = OUTCOMES.assign(engine=OUTCOMES.index != row)
-    found = engine.findings(RESTITUTION, table, ACROSS)["same_verdicts"]
-    assert (found["holds"], found["holds_when"]) == (holds, holds_when)
-    assert found["agree"] == 2 - (row is not None)
+    finding = engine.findings(RESTITUTION, table, ACROSS)["same_verdicts"]
+    assert (finding["holds"], finding["holds_when"]) == (holds, holds_when)
+    assert finding["agree"] == 2 - (row is not None)
 
 
 @pytest.mark.parametrize(
@@ -212,8 +185,8 @@ def test_one_other_outcome_breaks_the_same_outcomes(row, holds, holds_when):
 )
 def test_a_frame_as_strong_across_as_its_column_breaks_the_plane(row, changed, holds):
     table = ACROSS.assign(engine=ACROSS.engine.where(ACROSS.index != row, changed))
-    found = engine.findings(RESTITUTION, OUTCOMES, table)["across_the_plane"]
-    assert found["holds"] is holds
+    finding = engine.findings(RESTITUTION, OUTCOMES, table)["across_the_plane"]
+    assert finding["holds"] is holds
 
 
 STONES = pd.DataFrame(
@@ -237,24 +210,15 @@ STONES = pd.DataFrame(
 def test_colonnades_that_gain_break_the_finding(row, changed, holds):
     table = STONES.assign(theory=STONES.theory.where(STONES.index != row, changed))
     table = table.assign(engine=table.theory)
-    found = colonnades.findings(table, {"slow": 3.0})["stones_of_single_bays"]
-    assert found["holds"] is holds
-    assert found["hinged"] == 1.03
+    finding = colonnades.findings(table, {"slow": 3.0})["stones_of_single_bays"]
+    assert finding["holds"] is holds
+    assert finding["hinged"] == 1.03
 
 
 def test_colonnade_whose_engine_is_apart_stops_the_step():
     table = STONES.assign(engine=STONES.theory + 0.04)
     with pytest.raises(SystemExit, match="theory differ by"):
         colonnades.findings(table, {"slow": 3.0})
-
-
-def test_colonnade_of_the_engine_overturns_from_the_minimum_in_theory():
-    pulses = CONFIG["colonnades"]["pulses"][:1]
-    settings = CONFIG["colonnades"] | {"mass_ratios": [1.0], "pulses": pulses, "checks": []}
-    settings |= {"time_step": 2e-3, "resolution": 0.02}
-    table = colonnades.compute(settings, CONFIG["structures"])
-    assert table.theory.tolist() == pytest.approx([0.923, 1.034], abs=2e-3)
-    assert table.engine.tolist() == pytest.approx(table.theory.tolist(), abs=0.02)
 
 
 SETTINGS = {"time_step": 1.6e-3, "friction": 0.6, "rocking": 1.0, "draws": 2}
@@ -278,15 +242,6 @@ def test_whole_contacts_that_rock_or_gaps_that_do_not_break_the_anomalies(
     table = GAPS.copy()
     table.loc[row, name] = changed
     assert gaps.findings(table, SETTINGS)["gaps_make_it_rock"]["holds"] is holds
-
-
-def test_a_gap_lets_the_trilith_rock_where_whole_contacts_do_not():
-    small = {"depths": [0.22], "gaps": [0.0, 1.0], "draws": 1, "checks": [{"friction": 5.0}]}
-    settings = CONFIG["gaps"] | small | {"duration": 3.0}
-    found = gaps.compute(settings, CONFIG["structures"], CONFIG["trilith"])
-    assert found.friction.tolist() == [0.6, 0.6, 5.0]
-    whole, open_one, other = found.in_plane
-    assert whole < 0.01 < 1.0 < min(open_one, other) < max(open_one, other) < 5.0
 
 
 def test_repeats_are_those_of_minima_that_scatter_about_both():

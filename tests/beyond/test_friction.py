@@ -11,6 +11,12 @@ COLUMN, CAP = Column(0.5, 3.0), Cap(span=5.0, half_depth=0.5)
 SETTINGS = {"samples": 8, "check_samples": 100, "sufficient": 0.7}
 
 
+def sine(strength, ratio):
+    """Return a pulse by its amplitude over the uplift acceleration and its ω/p."""
+    omega = ratio * COLUMN.frequency_parameter
+    return Pulse("one-sine", strength * COLUMN.uplift_acceleration, angular_frequency=omega)
+
+
 def table(*rows):
     names = ["bay", "mass_ratio", "required", "least_vertical", "survived"]
     return pd.DataFrame([(*row, 10) for row in rows], columns=names)
@@ -25,9 +31,9 @@ def table(*rows):
     ],
 )
 def test_friction_is_enough_from_the_heaviest_cap_beam_down(rows, holds, holds_when, condition):
-    found = friction.findings(table(*rows), SETTINGS)["friction_is_enough"]
-    assert (found["holds"], found["holds_when"]) == (holds, holds_when)
-    assert found["condition"] == condition
+    findings = friction.findings(table(*rows), SETTINGS)["friction_is_enough"]
+    assert (findings["holds"], findings["holds_when"]) == (holds, holds_when)
+    assert findings["condition"] == condition
 
 
 def test_a_contact_that_would_have_to_pull_is_open():
@@ -39,20 +45,15 @@ def test_a_contact_that_would_have_to_pull_is_open():
 @pytest.mark.parametrize("gamma", [0.2, 4.0])
 def test_required_friction_is_that_of_three_bodies_and_of_uplift_at_least(gamma):
     frame = RockingFrame(COLUMN, gamma)
-    shaking = Pulse(
-        "one-sine",
-        1.5 * COLUMN.uplift_acceleration,
-        angular_frequency=4.0 * COLUMN.frequency_parameter,
-    )
-    row = friction.required(frame, CAP, shaking, SETTINGS)
+    row = friction.required(frame, CAP, sine(1.5, 4.0), SETTINGS)
     assert row["required"] >= COLUMN.uplift_acceleration
     friction.compare(frame, CAP, row, SETTINGS)
 
 
 def test_three_bodies_of_another_bay_disagree(monkeypatch):
     forces = friction.forces_at
-    other = lambda frame, cap, *motion: forces(frame, Cap(2.4, 0.5), *motion)  # noqa: E731
-    monkeypatch.setattr(friction, "forces_at", other)
+    wider = lambda frame, cap, *motion: forces(frame, Cap(2.4, 0.5), *motion)  # noqa: E731
+    monkeypatch.setattr(friction, "forces_at", wider)
     row = {"shape": "one-sine", "frequency_ratio": 4.0, "amplitude": 2.0}
     with pytest.raises(SystemExit, match="differs by"):
         friction.compare(RockingFrame(COLUMN, 1.0), CAP, row, SETTINGS)
@@ -60,28 +61,8 @@ def test_three_bodies_of_another_bay_disagree(monkeypatch):
 
 def test_an_overturning_pulse_is_left_out_and_an_impact_counts():
     frame = RockingFrame(COLUMN, 1.0)
-    strong = Pulse(
-        "one-sine", 20.0 * COLUMN.uplift_acceleration, angular_frequency=COLUMN.frequency_parameter
-    )
-    assert friction.required(frame, CAP, strong, SETTINGS) is None
+    assert friction.required(frame, CAP, sine(20.0, 1.0), SETTINGS) is None
     impact = friction.impact_impulses(frame, CAP, 1.0)
-    weak = Pulse(
-        "one-sine",
-        1.1 * COLUMN.uplift_acceleration,
-        angular_frequency=6.0 * COLUMN.frequency_parameter,
-    )
-    row = friction.required(frame, CAP, weak, SETTINGS)
+    row = friction.required(frame, CAP, sine(1.1, 6.0), SETTINGS)
     assert row["least_vertical"] <= impact.vertical.min() / impact.vertical[:2].sum()
     assert row["required"] >= float(np.max(impact.friction_demand))
-
-
-def test_error_of_required_friction_is_what_half_of_the_samples_change():
-    shaking = Pulse(
-        "one-sine",
-        3.0 * COLUMN.uplift_acceleration,
-        angular_frequency=6.0 * COLUMN.frequency_parameter,
-    )
-    frame = RockingFrame(COLUMN, 1.0)
-    fine, coarse = (friction.required(frame, CAP, shaking, {"samples": n}) for n in (8, 4))
-    assert fine["error"] == pytest.approx(fine["required"] - coarse["required"], rel=1e-6)
-    assert fine["error"] > 1e-4

@@ -20,15 +20,15 @@ PARAMS = {"settings": SETTINGS, "structures": CONFIG["structures"]}
 
 
 @pytest.fixture(scope="module")
-def made():
+def computed():
     return as_written(call(guarantee.compute, "guarantee", {}, PARAMS))
 
 
 @pytest.fixture
-def tables(made):
+def tables(computed):
     """The tables by their names in findings."""
-    names = {name: name if name == "guarantee" else f"guarantee_{name}" for name in made}
-    return {names[name]: table.copy() for name, table in made.items()}
+    names = {name: name if name == "guarantee" else f"guarantee_{name}" for name in computed}
+    return {names[name]: table.copy() for name, table in computed.items()}
 
 
 def findings(tables):
