@@ -47,8 +47,8 @@ def test_overturning_begins_where_it_was_printed(quantity):
         assert (safe.overturned, over.overturned) == (False, True), solve
         assert impacts in (None, over.number_of_impacts)
     wide = (value * (1 - 2 * tolerance), value * (1 + 2 * tolerance))
-    found = th.overturning_intervals(block, unit, wide, resolution=tolerance)
-    edge = found[0].lower if above else found[-1].upper
+    intervals = th.overturning_intervals(block, unit, wide, resolution=tolerance)
+    edge = intervals[0].lower if above else intervals[-1].upper
     assert edge[0] == pytest.approx(value, rel=tolerance * 1.01)
     ends = [
         plain.judge(block, unit.scaled(factor))
@@ -67,13 +67,13 @@ def test_overturning_without_impact_begins_at_the_root_of_its_condition(solve, r
     critical = 1 / math.sin(brentq(condition, 1e-6, 1.0, xtol=1e-15))
     margin = max(1e-9, 10 * CLOSE[solve])
     for factor, overturned in ((1 - margin, False), (1 + margin, True)):
-        found = solve(
+        history = solve(
             LINEAR,
             th.Pulse("one-sine", 0.2 * critical * factor, angular_frequency=ratio),
             samples=2,
         )
-        assert found.overturned is overturned
-    assert found.number_of_impacts == 0
+        assert history.overturned is overturned
+    assert history.number_of_impacts == 0
 
 
 # ---------------------------------------------------------------------------- closed forms
@@ -84,21 +84,23 @@ def test_bounces_die_in_a_time_that_is_a_sum_of_quarter_periods(solve, block):
     block, start = block.with_restitution(0.5), 0.6 * block.slenderness
     levels = potential(block, start) * 0.25 ** np.arange(6)
     quarters = [quarter_period(block, turning_rotation(block, level)) for level in levels]
-    found = solve(block, rotation=start, samples=2)
+    history = solve(block, rotation=start, samples=2)
     expected = 2 * np.cumsum(quarters) - quarters[0]
-    np.testing.assert_allclose(found.impact_times[:6], expected, atol=1e-6)
-    assert (found.outcome, found.peak_rotation) == ("rests", pytest.approx(start, rel=1e-12))
-    assert len(found.impact_times) < 40
+    np.testing.assert_allclose(history.impact_times[:6], expected, atol=1e-6)
+    assert (history.outcome, history.peak_rotation) == ("rests", pytest.approx(start, rel=1e-12))
+    assert len(history.impact_times) < 40
 
 
 @EVERY
 @pytest.mark.parametrize("restitution", [0.5, 0.9, 1.0])
 def test_energy_is_kept_between_impacts_and_cut_at_each(solve, block, restitution):
     block, times = block.with_restitution(restitution), np.linspace(0.0, 6.0, 401)
-    found = solve(block, rotation=0.2, velocity=-0.05, duration=6.0, samples=times)
-    level = [energy(block, abs(x), v) for x, v in zip(found.rotation, found.velocity, strict=True)]
-    passed = np.searchsorted(found.impact_times, times)
-    live = (passed < 8) & (np.min(np.abs(times[:, None] - found.impact_times), axis=1) > 1e-7)
+    history = solve(block, rotation=0.2, velocity=-0.05, duration=6.0, samples=times)
+    level = [
+        energy(block, abs(x), v) for x, v in zip(history.rotation, history.velocity, strict=True)
+    ]
+    passed = np.searchsorted(history.impact_times, times)
+    live = (passed < 8) & (np.min(np.abs(times[:, None] - history.impact_times), axis=1) > 1e-7)
     expected = energy(block, 0.2, -0.05) * restitution ** (2 * passed)
     np.testing.assert_allclose(np.array(level)[live], expected[live], rtol=1e-6, atol=1e-12)
     assert passed[live].max() >= 2
@@ -121,30 +123,34 @@ def test_barrier_decides_from_every_start(solve, block, side):
         (0.1, -speed(block, 1.001 * left, 0.1), 1),
         (0.0, speed(block, 0.5 * summit), None),
     ):
-        found = solve(block, rotation=side * tilt, velocity=side * rate, samples=5)
-        assert found.outcome == ("rests" if impacts is None else "overturned"), (tilt, rate)
-        assert [found.rotation[0], found.velocity[0]] == pytest.approx([side * tilt, side * rate])
+        history = solve(block, rotation=side * tilt, velocity=side * rate, samples=5)
+        assert history.outcome == ("rests" if impacts is None else "overturned"), (tilt, rate)
+        assert [history.rotation[0], history.velocity[0]] == pytest.approx(
+            [side * tilt, side * rate]
+        )
         if impacts is not None:
-            assert (found.number_of_impacts, math.isnan(found.peak_rotation)) == (impacts, True)
-            last = found.rotation[np.isfinite(found.rotation)][-1]
+            assert (history.number_of_impacts, math.isnan(history.peak_rotation)) == (impacts, True)
+            last = history.rotation[np.isfinite(history.rotation)][-1]
             assert side * (-1) ** impacts * last > tilt or solve is not th.simulate
         elif rate >= 0.0:
             level = energy(block, tilt, rate)
             turned = pytest.approx(turning_rotation(block, level), rel=1e-7)
-            assert found.peak_rotation == turned
+            assert history.peak_rotation == turned
         else:
-            assert found.peak_rotation == pytest.approx(max(tilt, found.peak_rotation), rel=1e-9)
+            assert history.peak_rotation == pytest.approx(
+                max(tilt, history.peak_rotation), rel=1e-9
+            )
 
 
 def test_exact_block_lies_flat_at_a_right_angle_and_nothing_is_known_beyond():
     for solve in (th.simulate, plain.simulate):
-        found = solve(BLOCK, rotation=0.26, velocity=0.2, samples=np.linspace(0.0, 20.0, 2001))
-        known = np.isfinite(found.rotation)
+        history = solve(BLOCK, rotation=0.26, velocity=0.2, samples=np.linspace(0.0, 20.0, 2001))
+        known = np.isfinite(history.rotation)
         last = np.count_nonzero(known)
         assert known[:last].all()
-        assert 1.4 < found.rotation[last - 1] <= math.pi / 2
-        assert np.all(np.diff(found.rotation[known]) > 0)
-        assert (len(found.time), found.outcome) == (2001, "overturned")
+        assert 1.4 < history.rotation[last - 1] <= math.pi / 2
+        assert np.all(np.diff(history.rotation[known]) > 0)
+        assert (len(history.time), history.outcome) == (2001, "overturned")
     assert th.simulate(BLOCK.linear(), rotation=1.6).outcome == "overturned"
 
 
@@ -159,23 +165,23 @@ def test_block_lifts_beyond_its_threshold_alone(solve, block, shape, side):
     level = side * block.uplift_acceleration
     for strength in (0.5, 0.999, 1.0, 1.01, 1.5):
         pulse = th.Pulse(shape, strength * level, angular_frequency=10.0)
-        found = solve(block, pulse, samples=np.linspace(0.0, 0.12, 21))
-        assert (found.outcome == "no uplift") == (strength <= 1.0)
-        assert (found.peak_rotation != 0) == (strength > 1.0)
-        assert strength > 1.0 or not (found.rotation.any() or found.impact_times.size)
-        assert strength < 1.5 or np.all(side * found.rotation[:-1] <= 0)
-        assert strength < 1.5 or side * found.rotation[-1] < 0
+        history = solve(block, pulse, samples=np.linspace(0.0, 0.12, 21))
+        assert (history.outcome == "no uplift") == (strength <= 1.0)
+        assert (history.peak_rotation != 0) == (strength > 1.0)
+        assert strength > 1.0 or not (history.rotation.any() or history.impact_times.size)
+        assert strength < 1.5 or np.all(side * history.rotation[:-1] <= 0)
+        assert strength < 1.5 or side * history.rotation[-1] < 0
     still = solve(block, duration=3.0, samples=4)
     assert (still.outcome, still.peak_rotation, still.time[-1]) == ("no uplift", 0, 3.0)
 
 
 @BY_TWO
-@pytest.mark.parametrize("at", [5, 40, 63, 64, 150])
-def test_one_sample_above_the_threshold_lifts_the_block(solve, at):
+@pytest.mark.parametrize("place", [5, 40, 63, 64, 150])
+def test_one_sample_above_the_threshold_lifts_the_block(solve, place):
     """It is among two hundred that are weaker, and the gravity changes a little."""
     up = th.Record(0.02, 1e-4 * np.sin(np.arange(200.0)))
     for excess, outcome in ((-0.002, True), (0.002, False)):
-        push = np.where(np.arange(200) == at, (1.0 + excess) * BLOCK.uplift_acceleration, 0.0)
+        push = np.where(np.arange(200) == place, (1.0 + excess) * BLOCK.uplift_acceleration, 0.0)
         response = solve(BLOCK, th.Record(0.02, push), vertical=up, samples=2)
         assert (response.outcome == "no uplift") is outcome
 
@@ -192,30 +198,30 @@ def test_block_lifts_again_after_it_has_come_to_rest(solve, block, restitution):
     block, times = block.with_restitution(restitution), np.linspace(0, 3, 101)
     peak, close = 2.0 * block.uplift_acceleration, 1e-7 * block.slenderness
     for second in (1.0, -1.0):
-        both = solve(block, twin(peak, second), samples=np.append(times, times + 10.4))
-        once, again = both.rotation[:101], both.rotation[101:]
+        twice = solve(block, twin(peak, second), samples=np.append(times, times + 10.4))
+        once, again = twice.rotation[:101], twice.rotation[101:]
         np.testing.assert_allclose(again, second * once, atol=close)
         assert np.abs(once).max() > 1e-3
         assert not np.any(np.abs(once[-5:]) > 10 * close)
     if restitution == 0.0:
         free = solve(block, rotation=0.1, samples=np.linspace(0.0, 9.0, 50))
-        assert (len(both.impact_times), len(free.impact_times), both.outcome) == (2, 1, "rests")
+        assert (len(twice.impact_times), len(free.impact_times), twice.outcome) == (2, 1, "rests")
         assert not free.rotation[free.time > free.impact_times[0] + 0.01].any()
     weak = solve(block, twin(0.6 * peak, 1.4), samples=2).peak_rotation
-    alone = solve(block, twin(0.84 * peak, 0.0), samples=2).peak_rotation
-    assert weak == pytest.approx(alone, rel=1e-6)
+    single = solve(block, twin(0.84 * peak, 0.0), samples=2).peak_rotation
+    assert weak == pytest.approx(single, rel=1e-6)
 
 
 @EVERY
 def test_block_without_restitution_lifts_at_once_when_it_lands_on_strong_ground(solve, block):
     block = block.with_restitution(0.0)
     pulse = th.Pulse("constant", 3.0 * block.uplift_acceleration, angular_frequency=math.pi / 0.6)
-    found = solve(block, pulse, rotation=0.02, duration=0.6, samples=301)
-    assert found.number_of_impacts == 1
-    after = found.time > found.impact_times[0] + 1e-3
-    fresh = solve(block, pulse, samples=found.time[after] - found.impact_times[0])
-    np.testing.assert_allclose(found.rotation[after], fresh.rotation, atol=1e-8)
-    assert np.all(found.rotation[after] < 0)
+    history = solve(block, pulse, rotation=0.02, duration=0.6, samples=301)
+    assert history.number_of_impacts == 1
+    after = history.time > history.impact_times[0] + 1e-3
+    fresh = solve(block, pulse, samples=history.time[after] - history.impact_times[0])
+    np.testing.assert_allclose(history.rotation[after], fresh.rotation, atol=1e-8)
+    assert np.all(history.rotation[after] < 0)
 
 
 @EVERY
@@ -230,6 +236,6 @@ def test_grazing_impacts_are_neither_missed_nor_invented(solve, block, margin, s
     pulse = th.Pulse("constant", -side * push, angular_frequency=math.pi / 0.35)
     for factor, impacts in ((1 - margin, 0), (1 + margin, 2)):
         thrown = {"rotation": side * start, "velocity": -side * critical * factor}
-        found = solve(block, pulse, **thrown, duration=0.35, samples=2)
-        assert np.count_nonzero(found.impact_times <= 0.35) == impacts
-        assert side * found.rotation[-1] > 0
+        history = solve(block, pulse, **thrown, duration=0.35, samples=2)
+        assert np.count_nonzero(history.impact_times <= 0.35) == impacts
+        assert side * history.rotation[-1] > 0

@@ -163,10 +163,10 @@ def test_acceleration_is_the_second_derivative_of_displacement(column, sign):
 
     step = 1e-4
     for t in np.linspace(0.0, 2.0, 21):
-        here, ahead, behind = (
+        now, ahead, behind = (
             np.array(cap_displacement(column, rotation(s))) for s in (t, t + step, t - step)
         )
-        acceleration = (ahead - 2 * here + behind) / step**2
+        acceleration = (ahead - 2 * now + behind) / step**2
         assert cap_acceleration(column, rotation(t), rate(t), second(t)) == pytest.approx(
             acceleration, abs=1e-5 * column.size
         )

@@ -109,11 +109,6 @@ def test_block_has_the_three_numbers_of_its_structure(structure):
         assert block.linear().with_restitution(0.3) == RockingBlock(p, alpha, 0.3, linearised=True)
         lifts = block.uplift_acceleration, block.linear().uplift_acceleration
         assert lifts == pytest.approx((math.tan(alpha), alpha), rel=1e-15)
-    for name in ("half_width", "mass_ratio", "restitution"):
-        with pytest.raises(AttributeError):
-            setattr(structure, name, 0.1)
-        with pytest.raises(AttributeError):
-            setattr(block, name, 0.1)
 
 
 # ---------------------------------------------------------------------------- a fixed mass

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import topheavy
-from topheavy.kernel.compiled import cache_folder, state, writable_folder
+from topheavy.kernel.compiled import state, writable_folder
 
 PACKAGE, OTHER = Path(topheavy.__file__).parent, "bodies/free_rocking.py"
 
@@ -48,17 +48,6 @@ def test_change_of_any_source_is_another_state(tmp_path, changed):
     assert before == now(PACKAGE)
     (package / changed).write_bytes((package / changed).read_bytes() + b"\n")
     assert now(package) != before
-
-
-def test_folder_is_where_the_user_keeps_caches(monkeypatch, tmp_path):
-    monkeypatch.setenv("HOME", str(tmp_path / "home"))
-    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
-    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    assert cache_folder() == tmp_path / "home" / ".cache" / "topheavy"
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
-    assert cache_folder() == tmp_path / "xdg" / "topheavy"
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "numba"))
-    assert cache_folder() == tmp_path / "numba" / "topheavy"
 
 
 def test_without_a_folder_to_write_to_nothing_is_kept(monkeypatch, tmp_path):

@@ -42,8 +42,8 @@ BLOCK = RockingBlock(1.0, 0.25, 0.9)
 
 def shaken(block, shape, strength, ratio, tolerance=TOLERANCE):
     """The outcome under a pulse of `strength` times the uplift level, at ω/p = `ratio`."""
-    there, waveform = oscillator(block), pulse_waveform(shape)
-    return outcome_of(there, waveform, ratio, strength * there.uplift_level, tolerance=tolerance)
+    scaled, waveform = oscillator(block), pulse_waveform(shape)
+    return outcome_of(scaled, waveform, ratio, strength * scaled.uplift_level, tolerance=tolerance)
 
 
 def aloft(block, rotation, velocity):
@@ -89,15 +89,15 @@ def test_uplift_makes_no_impact_of_its_own(degrees, linearised):
 
 def test_the_side_is_a_state_of_its_own():
     """After an impact φ = 0, and the other side pulls back with its own level."""
-    there = oscillator(BLOCK)
-    push = 0.02 - there.uplift_level  # −s a = 0.02
+    block = oscillator(BLOCK)
+    push = 0.02 - block.uplift_level  # −s a = 0.02
     before = State(0.7, 1.0, -1e-17, -0.3, 0.1, 0.99, push, 0.5, 1.0, 0.0)
-    after = after_impact(there, before)
+    after = after_impact(block, before)
     assert after[:4] == (0.7, -1.0, 0.0, pytest.approx(0.27))
     assert (after.sine, after.cosine) == (0.0, 1.0)
-    assert after.push == pytest.approx(-0.02 - there.uplift_level)
+    assert after.push == pytest.approx(-0.02 - block.uplift_level)
     assert after.rate == -0.5
-    assert after_impact(there, before._replace(velocity=1e-18)).velocity == 0.0
+    assert after_impact(block, before._replace(velocity=1e-18)).velocity == 0.0
 
 
 def test_pulse_of_several_cycles_is_the_record_of_its_samples():
@@ -199,8 +199,8 @@ def test_what_is_called_rest_does_bounce_to_rest_before_the_next_uplift(linearis
 @pytest.mark.parametrize("lift", [0.0, 0.5])
 def test_survival_is_certain_just_below_the_speed_that_overturns(block, lift):
     """A short push along the motion adds its impulse to the speed: 0.3 of what overturns."""
-    there, length = oscillator(block), 1e-4
-    barrier = math.sqrt(2.0 * potential(there, there.slenderness))
+    scaled, length = oscillator(block), 1e-4
+    barrier = math.sqrt(2.0 * potential(scaled, scaled.slenderness))
     pushes = np.zeros(50)
     pushes[:10] = -0.3 * barrier / (9.5 * length)  # g, towards the side 1
     waveform = record_waveform(pushes, lift * np.ones(10))
@@ -208,11 +208,11 @@ def test_survival_is_certain_just_below_the_speed_that_overturns(block, lift):
     for share, certain in ((0.69, True), (0.71, False)):
         speed = share * barrier
         state = State(0.0, 1.0, 0.0, speed, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0)
-        state = with_ground(there, state, 0.0, ground(motion, 0.0))
-        assert is_certain_to_survive(there, motion, state, 0, there.flat) is certain
-        assert not is_certain_to_survive(there, motion, state, 0, 0.8 * there.slenderness)
-    beyond = state._replace(rotation=1.01 * there.slenderness, velocity=0.0)
-    assert not is_certain_to_survive(there, STILL, beyond, 0, there.flat)
+        state = with_ground(scaled, state, 0.0, ground(motion, 0.0))
+        assert is_certain_to_survive(scaled, motion, state, 0, scaled.flat) is certain
+        assert not is_certain_to_survive(scaled, motion, state, 0, 0.8 * scaled.slenderness)
+    beyond = state._replace(rotation=1.01 * scaled.slenderness, velocity=0.0)
+    assert not is_certain_to_survive(scaled, STILL, beyond, 0, scaled.flat)
 
 
 @pytest.mark.parametrize("kind", ["record", "two records", "ricker-antisymmetric", "one-cosine"])
@@ -258,8 +258,8 @@ def lifted_by_a_digit(random):
     alpha, restitution = random.uniform(0.1, 0.76), float(random.uniform(0.5, 0.999))
     block = RockingBlock(1.0, float(alpha), restitution)
     values = random.uniform(-1.0, 1.0, random.integers(3, 8)) * block.uplift_acceleration
-    at = random.integers(1, values.size - 1)
-    values[at] = random.choice([-1.0, 1.0]) * np.nextafter(block.uplift_acceleration, 2.0)
+    place = random.integers(1, values.size - 1)
+    values[place] = random.choice([-1.0, 1.0]) * np.nextafter(block.uplift_acceleration, 2.0)
     return block, Record(10.0 ** random.uniform(-2.0, 0.5), np.concatenate([[0.0], values, [0.0]]))
 
 

@@ -14,7 +14,7 @@ from topheavy.ground.shapes import PULSE_SHAPES
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
 from topheavy.kernel.forcing import equation, ground
 from topheavy.kernel.grid import record_order
-from topheavy.kernel.quiet_pieces import derivatives, eighth_derivative, powers
+from topheavy.kernel.quiet_pieces import derivatives, eighth_derivative
 from topheavy.kernel.step import (
     HULL,
     POLYNOMIAL,
@@ -89,12 +89,6 @@ few = settings(max_examples=60, deadline=None, derandomize=True, database=None)
 ONE_METRE = oscillator(RockingBlock(1.0, 0.25, 0.9))
 
 
-def test_powers_of_a_short_step_are_over_their_factorials():
-    assert powers(0.3) == pytest.approx(
-        [0.3**k / math.factorial(k) for k in range(1, 8)], rel=1e-14
-    )
-
-
 @few
 @given(
     rotation=st.floats(0.01, 0.25),
@@ -111,8 +105,8 @@ def test_derivatives_are_those_of_the_recurrences(rotation, velocity, push, rate
     tilt, lean = math.cos(alpha - rotation), math.sin(alpha - rotation)
     force = math.sin(rotation) / math.cos(alpha) + push * tilt
     slope = math.cos(rotation) / math.cos(alpha) + push * lean
-    at = force, slope, rate * tilt, rate * lean, velocity
-    ours = *derivatives(*at), eighth_derivative(*at)
+    terms = force, slope, rate * tilt, rate * lean, velocity
+    ours = *derivatives(*terms), eighth_derivative(*terms)
     theirs = [w[ROTATION, n] * math.factorial(n) for n in range(3, 9)]
     size = (1 + abs(push) + abs(rate) + abs(velocity)) ** 6
     assert ours == pytest.approx(theirs, rel=1e-12, abs=1e-13 * size)
