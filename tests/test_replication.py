@@ -141,19 +141,12 @@ def test_a_printed_number_that_is_judged_has_the_tolerance_of_its_digits(tmp_pat
     [
         ("{scale}", "{scal}", "stands has {scal}, which is no key of the config; expected one of"),
         ("where", "were", "claim stands: 'where': Field required"),
-        (
-            "good",
-            "good\n  expected: proven",
-            "claim stands: 'expected': Input should be 'confirmed",
-        ),
         ("  finding: run.good\n", "", "stands has the finding ''; expected rule.name, and none if"),
         ("run.good", "good", "stands has the finding 'good'; expected rule.name, and none if"),
         ("good", "good\n  expected: not tested", "has the finding 'run.good'; expected rule.name"),
         ("good", "good\n  printed: .nan", "Input should be a finite number"),
-        ("good", "good\n  part: ours", "'part': Extra inputs are not permitted"),
         ("{scale}", "{scale:zz}", "claim stands: Unknown format code 'z'"),
         (GOOD, GOOD + GOOD, "claim stands: the id is there twice"),
-        (GOOD, "text", "claims.yaml has 'text'; expected a list of claims"),
         (GOOD, "- text", "claim number 1 of ours: "),
     ],
 )
@@ -191,9 +184,9 @@ def test_mistake_in_a_step_is_named_in_its_log(tmp_path, compute, findings, mess
     job = SimpleNamespace(rule="tiny", input={}, output=output, params=params, log=log)
     with pytest.raises(SystemExit):
         step.run(job, compute, findings)
-    told = log[0].read_text("utf-8")
-    assert message in told
-    assert told.startswith("tests/test_replication.py: ")
+    text = log[0].read_text("utf-8")
+    assert message in text
+    assert text.startswith("tests/test_replication.py: ")
 
 
 # Configs ------------------------------------------------------------------------------------------
@@ -235,18 +228,14 @@ def test_config_with_its_keys_is_read(tmp_path):
     ("old", "new", "message"),
     [
         ("scale", "sacle", "unknown key 'sacle'; did you mean 'scale'?"),
-        ("shape: ", "sahpe: ", "unknown key 'inner.sahpe'; did you mean 'shape'?"),
         ("scale: 1.3\n", "", "the key 'scale' is missing"),
         ("{temple: 1.0}", "3", "structures is 3; input should be a valid dictionary"),
         ("1.3", "'1.3'", "scale is '1.3'; input should be a valid number: without quotes"),
         ("1.3", "1,3", "scale is '1,3'; input should be a valid number: a decimal point"),
         ("2.0", "2,50", "grid has the key 50; expected a name. A number has a point"),
-        ("1.3", "-1.3", "scale is -1.3; input should be greater than 0"),
-        ("points: 3", "points: -3", "grid.points is -3; input should be greater than or equal"),
         ("highest: 2.0", "highest: 0.0", "grid.highest is 0.0; input should be greater than 0"),
         ("lowest: 0.5", "lowest: 3.0", "expected more than lowest, 3"),
         ("one-sine", "one-sin", "inner.shape is 'one-sin'; input should be 'one-sine', 'one-cos"),
-        ("[0.0, .inf]", "[]", "inner.ratios is []; list should have at least 1 item"),
         ("[3.0, 30.0]", "[30.0, 3.0]", "inner.ends is [30.0, 3.0]; expected numbers that rise"),
         ("3.0,", "0.05,", "inner.ends.0 is 0.05; input should be greater than or equal to 1"),
         ("structure: temple", "structure: tmeple", "inner.structure is 'tmeple'; expected a name"),

@@ -19,9 +19,9 @@ def test_constant_vertical_acceleration_is_another_gravity():
     share, lift = 0.7, th.Record(0.02, np.full(151, -0.3))
     lighter = plain.simulate(COLUMN, SHAKE, samples=TIME[:200], vertical=lift)
     heavier = th.Column(COLUMN.half_width / share, COLUMN.half_height / share)
-    other = plain.simulate(heavier, SHAKE.scaled(1.0 / share), samples=TIME[:200])
-    assert np.abs(other.rotation).max() > 0.1 * COLUMN.slenderness
-    np.testing.assert_allclose(lighter.rotation, other.rotation, atol=1e-9)
+    similar = plain.simulate(heavier, SHAKE.scaled(1.0 / share), samples=TIME[:200])
+    assert np.abs(similar.rotation).max() > 0.1 * COLUMN.slenderness
+    np.testing.assert_allclose(lighter.rotation, similar.rotation, atol=1e-9)
 
 
 ODD = th.Record(0.0137, 0.35 * np.cos(20.3 * 0.0137 * np.arange(211)), "a time step of its own")
@@ -49,10 +49,10 @@ def test_both_solvers_agree(up, linearised, factor):
     level = th.simulate(block, shaking, samples=TIME, duration=6.0)
     moved = np.abs(ours.rotation - level.rotation)
     assert np.nanmax(moved) > 1e-3 * block.slenderness
-    alone, other = (one.judge(block, shaking, vertical=up) for one in (th, plain))
-    assert alone[::2] == other[::2]  # overturned, number of impacts
+    end, plain_end = (solver.judge(block, shaking, vertical=up) for solver in (th, plain))
+    assert end[::2] == plain_end[::2]  # overturned, number of impacts
     close = 1e-8 * block.slenderness
-    np.testing.assert_allclose(alone.peak_rotation, other.peak_rotation, rtol=0, atol=close)
+    np.testing.assert_allclose(end.peak_rotation, plain_end.peak_rotation, rtol=0, atol=close)
 
 
 @pytest.mark.parametrize(("scale_vertical", "linearised"), [(False, True), (True, False)])
