@@ -61,8 +61,8 @@ def grid_of(block, waveform, scales, amplitudes, **named):
     which = np.zeros(cells[0].size, np.int64)
     from topheavy.kernel.grid import outcomes_of
 
-    found = outcomes_of([block], waveform, which, *cells, **named)
-    return [values.reshape(len(scales), len(amplitudes)) for values in found]
+    results = outcomes_of([block], waveform, which, *cells, **named)
+    return [values.reshape(len(scales), len(amplitudes)) for values in results]
 
 
 def pulse_forcing(shape, amplitude, ratio, cycles=1):

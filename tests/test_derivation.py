@@ -51,9 +51,9 @@ KINDS = {
 
 @pytest.fixture(scope="module")
 def checks():
-    found = check_printed()
-    named = {check.id: check for check in found}
-    assert len(named) == len(found)
+    printed = check_printed()
+    named = {check.id: check for check in printed}
+    assert len(named) == len(printed)
     return named
 
 
@@ -87,8 +87,8 @@ def test_one_wrong_sign_anywhere_is_caught(statement):
     right = statement.meant or statement.printed
     places = list(re.finditer(r" [+−] ", right))
     for place in places:
-        other = " − " if place.group() == " + " else " + "
-        wrong = right[: place.start()] + other + right[place.end() :]
+        turned = " − " if place.group() == " + " else " + "
+        wrong = right[: place.start()] + turned + right[place.end() :]
         assert not follows(wrong, statement.premises, statement.sides), wrong
 
 
@@ -104,8 +104,8 @@ def test_one_wrong_sign_anywhere_is_caught(statement):
 def test_no_member_and_no_side_is_left_out(name, right, wrong):
     (statement,) = (s for s in EQUATIONS if s.name == name)
     assert right in statement.printed
-    other = statement.printed.replace(right, wrong)
-    assert not follows(other, statement.premises, statement.sides)
+    spoilt = statement.printed.replace(right, wrong)
+    assert not follows(spoilt, statement.premises, statement.sides)
 
 
 def test_every_theorem_holds_and_is_stated():
@@ -256,12 +256,12 @@ def values(body):
 @pytest.mark.parametrize("columns", [3, 5])
 def test_colonnade_of_the_step_follows_the_derivation(ratio, columns):
     column, width = Column(0.01, 3.0), 5.0
-    given = {R: column.size, alpha: column.slenderness, gamma: ratio, colonnades.span: width}
+    numbers = {R: column.size, alpha: column.slenderness, gamma: ratio, colonnades.span: width}
     half = 0.01
     ends = [(-half, width, True), *[(0, width, False)] * (columns - 3), (0, width + half, False)]
-    after = [float(colonnades.lever_of(x, y, covers=z).subs(given)) for x, y, z in ends]
+    after = [float(colonnades.lever_of(x, y, covers=z).subs(numbers)) for x, y, z in ends]
     block = colonnade(column, ratio, columns, width)
-    mean = given | {colonnades.lever: sum(after) / len(after)}
+    mean = numbers | {colonnades.lever: sum(after) / len(after)}
     tangent = float(colonnades.stone_tangent().subs(mean))
     assert block.uplift_acceleration == pytest.approx(tangent, rel=1e-12)
     square = sum(x * (x + y) for x, y in zip(after, after[::-1], strict=True)) / len(after)
@@ -275,10 +275,11 @@ def test_colonnade_of_the_step_follows_the_derivation(ratio, columns):
 @pytest.mark.parametrize("cap", [(0.0, 0.0), (2.6, 0.6)], ids=["concentrated", "rectangle"])
 def test_library_follows_the_derivation(slenderness, ratio, cap):
     body = FixedMassColumn(Column(math.sin(slenderness), math.cos(slenderness)), ratio, *cap)
-    given = values(body)
-    assert body.uplift_acceleration == pytest.approx(float(fixed_tangent().subs(given)), rel=1e-12)
+    lengths = values(body)
+    tangent = float(fixed_tangent().subs(lengths))
+    assert body.uplift_acceleration == pytest.approx(tangent, rel=1e-12)
     # θ̈ at rest is p'² sin α', and its derivative by |θ| is −p'² cos α'
-    free = fixed_motion(NEGATIVE).subs(given | {ground_acceleration: 0})
+    free = fixed_motion(NEGATIVE).subs(lengths | {ground_acceleration: 0})
     ends = (NEGATIVE.upright(x).evalf() for x in (free, sp.diff(free, NEGATIVE.rotation)))
     assert body.frequency_parameter**2 == pytest.approx(math.hypot(*ends), rel=1e-12)
-    assert body.restitution == pytest.approx(float(fixed_restitution().subs(given)), rel=1e-12)
+    assert body.restitution == pytest.approx(float(fixed_restitution().subs(lengths)), rel=1e-12)

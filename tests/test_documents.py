@@ -14,8 +14,8 @@ CLAIMS = yaml.safe_load((ROOT / "paper/claims.yaml").read_text("utf-8"))
 def test_each_figure_has_a_caption_and_is_in_one_document():
     shown = [name for text in TEXTS.values() for name in re.findall(r'#picture\("(\w+)"', text)]
     scripts = {path.stem: path.read_text("utf-8") for path in (ROOT / "figures").glob("*.py")}
-    drawn = [name for name, text in scripts.items() if "\ndef draw(" in text]
-    assert sorted(shown) == sorted(CAPTIONS) == sorted(drawn)
+    figures = [name for name, text in scripts.items() if "\ndef draw(" in text]
+    assert sorted(shown) == sorted(CAPTIONS) == sorted(figures)
 
 
 def test_captions_name_claims_that_there_are():

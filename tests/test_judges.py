@@ -34,8 +34,8 @@ def sealed(tree):
     """Renew the checksums, as sha256sum does."""
     lines = check.SUMS.read_text("utf-8").splitlines()
     paths = [line.split("  ", 1)[1] for line in lines]
-    made = [f"{hashlib.sha256((tree / p).read_bytes()).hexdigest()}  {p}\n" for p in paths]
-    check.SUMS.write_text("".join(made), "utf-8")
+    sums = [f"{hashlib.sha256((tree / p).read_bytes()).hexdigest()}  {p}\n" for p in paths]
+    check.SUMS.write_text("".join(sums), "utf-8")
 
 
 def named(part, path):

@@ -129,8 +129,8 @@ def test_wrong_value_is_refused_in_few_words(function, values, name):
 @each(lambda value: np.asarray(value).dtype.kind in "if")
 def test_numbers_of_numpy_are_numbers(function, values, name):
     value = np.asarray(values[name])
-    for other in (value.astype({"f": np.float32, "i": np.int64}[value.dtype.kind]), value):
-        result = function(**values | {name: other[()] if np.ndim(other) == 0 else other})
+    for twin in (value.astype({"f": np.float32, "i": np.int64}[value.dtype.kind]), value):
+        result = function(**values | {name: twin[()] if np.ndim(twin) == 0 else twin})
         assert repr(result) == repr(function(**values))
     plt.close("all")
 
@@ -153,7 +153,7 @@ def test_masked_elements_are_refused(function, values, name):
             function(**values | {name: masked})
 
 
-@pytest.mark.parametrize("twin", [lambda it: pickle.loads(pickle.dumps(it)), copy.deepcopy])
+@pytest.mark.parametrize("twin", [lambda record: pickle.loads(pickle.dumps(record)), copy.deepcopy])
 def test_samples_of_a_record_cannot_be_written_to(twin):
     for record in (SHAKING, twin(SHAKING), twin(SHAKING.scaled(2.0))):
         with pytest.raises(ValueError, match="read-only"):
@@ -374,11 +374,11 @@ ASKED = {
 
 
 @pytest.mark.filterwarnings("always")
-@pytest.mark.parametrize("asked", ASKED)
-def test_what_is_probably_a_mistake_is_asked_where_it_was_written(asked):
-    with pytest.warns(UserWarning, match=asked) as caught:
-        ASKED[asked]()
-    assert {one.filename for one in caught} == {__file__}
+@pytest.mark.parametrize("question", ASKED)
+def test_what_is_probably_a_mistake_is_asked_where_it_was_written(question):
+    with pytest.warns(UserWarning, match=question) as caught:
+        ASKED[question]()
+    assert {warning.filename for warning in caught} == {__file__}
 
 
 @pytest.mark.filterwarnings("error")

@@ -75,14 +75,16 @@ def test_each_link_leads_to_a_file_and_an_anchor(pages):
 def test_nothing_is_requested(pages):
     for path, page in pages.items():
         styles = re.findall(r"(?:url\(|@import)\s*['\"]?([^'\")]+)", page.text)
-        outside = [one for one in page.loaded + styles if re.match(r"(https?:)?//", one)]
+        outside = [
+            address for address in page.loaded + styles if re.match(r"(https?:)?//", address)
+        ]
         assert not outside, path
     assert "//" not in re.sub(r"url\(data:[^)]*\)", "", (SITE / "site.css").read_text("utf-8"))
 
 
 def test_a_page_can_be_read_by_machines(pages):
     for path, page in pages.items():
-        assert [one for one, n in Counter(page.ids).items() if n > 1] == [], path
+        assert [name for name, n in Counter(page.ids).items() if n > 1] == [], path
         assert page.lang.startswith("en"), path
         assert re.search("<title>[^<]+</title>", page.text), path
         steps = [after - before for before, after in pairwise([0, *page.levels])]

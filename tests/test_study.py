@@ -127,7 +127,7 @@ def test_the_study_of_tests_quotes_gains_and_lengths_of_the_article():
     settings, lengths = read_yaml(ROOT / "config/config.yaml")["motions"], []
     for name in sweep.sets(settings):  # of a few motions, since the text says whole hundredths
         records = [motion.record() for motion in sweep.models(settings)[name][:12]]
-        length = np.median([each.peak_velocity / each.peak_acceleration for each in records])
+        length = np.median([record.peak_velocity / record.peak_acceleration for record in records])
         lengths.append(length / STANDARD_GRAVITY)
     quoted = [float(number) for number in config["synthetic"]["length"].split(" to ")]
     assert quoted == pytest.approx([min(lengths), max(lengths)], rel=0.15)

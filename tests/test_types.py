@@ -59,7 +59,9 @@ def test_every_mistake_of_a_user_is_found(errors):
 
 def test_what_a_public_function_returns_is_public():
     functions = filter(inspect.isfunction, (getattr(topheavy, name) for name in PUBLIC))
-    returned = " ".join(str(inspect.signature(one).return_annotation) for one in functions)
+    returned = " ".join(
+        str(inspect.signature(function).return_annotation) for function in functions
+    )
     others = {"NDArray", "DataArray", "Dataset", "None"}
     assert set(re.findall(r"[A-Z]\w+", returned)) <= {*dir(topheavy), *others}
 

@@ -110,8 +110,8 @@ def test_a_sentence_without_a_meaning_stops_its_document_alone(key, folder, tmp_
     config = deepcopy(CONFIG)
     *sections, name = key.split(".")
     section = config
-    for each in sections:
-        section = section[each]
+    for key_of_section in sections:
+        section = section[key_of_section]
     section[name] = value
     with pytest.raises(SystemExit) as stopped:
         typeset(tmp_path, document, config)

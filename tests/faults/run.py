@@ -45,8 +45,8 @@ def copies(number: int) -> Iterator[SimpleQueue[Path]]:
 
 def python(tree: Path, *command: str, limit: float | None = None) -> Any:
     """Run Python in a copy, whose modules come before those that are installed."""
-    own = {"PYTHONPATH": f"{tree}/src{os.pathsep}{tree}", "PYTHONDONTWRITEBYTECODE": "1"}
-    env = {"NUMBA_CACHE_DIR": f"{tree.parent}/numba", **os.environ, **own}
+    changes = {"PYTHONPATH": f"{tree}/src{os.pathsep}{tree}", "PYTHONDONTWRITEBYTECODE": "1"}
+    env = {"NUMBA_CACHE_DIR": f"{tree.parent}/numba", **os.environ, **changes}
     options: Any = {"cwd": tree, "env": env, "capture_output": True, "text": True, "check": False}
     return subprocess.run([sys.executable, *command], timeout=limit, **options)
 
@@ -105,7 +105,9 @@ def main() -> int:
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
     groups = yaml.safe_load(FAULTS.read_text(encoding="utf-8"))
-    entries = {one["name"]: group | one for group in groups for one in group.get("faults", [group])}
+    entries = {
+        entry["name"]: group | entry for group in groups for entry in group.get("faults", [group])
+    }
     if unknown := {*options.names} - {*entries}:
         sys.exit(f"{FAULTS} has no {', '.join(sorted(unknown))}")
     chosen = [entries[name] for name in options.names or entries]
