@@ -155,7 +155,8 @@ rule spectra_shard:
     input:
         kernel="results/kernel.compiled",
     output:
-        table="results/shards/spectra_{scatteritem}.csv",
+        spectra="results/shards/spectra_{scatteritem}.csv",
+        cycles="results/shards/cycles_{scatteritem}.csv",
     log:
         "results/logs/spectra_{scatteritem}.log",
     priority: 2
@@ -172,6 +173,7 @@ rule spectra_shard:
 rule spectra:
     input:
         shards=gather.spectra("results/shards/spectra_{scatteritem}.csv"),
+        several=gather.spectra("results/shards/cycles_{scatteritem}.csv"),
     output:
         spectra=shown("results/tables/spectra.csv"),
         areas="results/tables/spectra_areas.csv",

@@ -1,8 +1,7 @@
 """Compare overturning spectra: what a heavier cap beam, or a larger column, prevents and causes.
 
 Survival is not monotone in the amplitude. Between the amplitudes that overturn after an impact and
-those that overturn without one there can be a survival region. A set of amplitudes is an array of
-disjoint intervals, shape (n, 2).
+those that overturn without one there can be a survival region.
 """
 
 import math
@@ -15,6 +14,7 @@ import pandas as pd
 
 from replication.step import check, run, truth, value
 from steps.shared import cycles, plain
+from steps.shared.intervals import inside, length, overlap, without
 from steps.shared.spectrum import (
     CHANGES,
     FRAME,
@@ -125,36 +125,6 @@ class Spectra:
         return float(areas[0]), float(areas[1])
 
 
-def length(intervals: np.ndarray) -> float:
-    return float(np.sum(intervals[:, 1] - intervals[:, 0]))
-
-
-def overlap(first: np.ndarray, second: np.ndarray) -> float:
-    """Return the length that two sets have in common."""
-    low = np.maximum(first[:, None, 0], second[None, :, 0])
-    high = np.minimum(first[:, None, 1], second[None, :, 1])
-    return float(np.maximum(high - low, 0.0).sum())
-
-
-def without(first: np.ndarray, second: np.ndarray) -> list[tuple[float, float]]:
-    """Return the part of a set that is not in another; adjacent pieces are not merged."""
-    pieces, others = [], second.tolist()
-    for low, high in first.tolist():
-        for begin, end in others:
-            if end > low and begin < high:
-                if begin > low:
-                    pieces.append((low, begin))
-                low = end
-        if low < high:
-            pieces.append((low, high))
-    return pieces
-
-
-def inside(intervals: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
-    low, high = intervals[:, 0, None], intervals[:, 1, None]
-    return np.any((low <= amplitudes) & (amplitudes <= high), axis=0)
-
-
 def frames(gammas: Iterable[float]) -> list[tuple[str, float, float]]:
     return [(FRAME, gamma, 1.0) for gamma in gammas]
 
@@ -260,7 +230,9 @@ def histories(band: Band) -> pd.DataFrame:
     return pd.concat(map(pd.DataFrame, made))
 
 
-def compute(shards: list[pd.DataFrame], settings: dict, tightened: float) -> dict[str, Any]:
+def compute(
+    shards: list[pd.DataFrame], several: list[pd.DataFrame], settings: dict, tightened: float
+) -> dict[str, Any]:
     """Return the spectra of the frames, the shares of their maps, and one pair of histories.
 
     Beside them the collapse over ω/p̂, the minima under a sine of several cycles with their falls,
@@ -272,14 +244,14 @@ def compute(shards: list[pd.DataFrame], settings: dict, tightened: float) -> dic
     spectra = Spectra(table, last)
     bands = spectra.bands([*combinations(frames(spectra.gammas), 2)])
     check_sample(spectra, bands, settings["sample"], tightened)
-    several = cycles.minima(settings)
+    minima = pd.concat(several).sort_values([*cycles.PLACE, "mass_ratio"], ignore_index=True)
     return {
         "spectra": table[table.change == FRAME].drop(columns="change"),
         "areas": areas_of(spectra),
         "histories": histories(max(bands, key=lambda band: band.width)),
         "collapse": collapse_of(spectra),
-        "cycles": several,
-        "falls": cycles.falls(several, settings),
+        "cycles": minima,
+        "falls": cycles.falls(minima, settings),
         "two_pulses": cycles.two_pulses(settings),
     }
 

@@ -10,7 +10,7 @@ import topheavy as th
 from documents.check import REFERENCE
 from replication.step import findings_text
 from steps import proven, spectra, uplift, vase
-from steps.shared import balls, cycles, falls, spectrum
+from steps.shared import balls, cycles, falls, intervals, spectrum
 from steps.shared.histories import history
 from steps.shared.lobes import record_of, sine
 from steps.shared.spectrum import FRAME, line, solve
@@ -64,12 +64,13 @@ def unmet(computed):
 
 @pytest.fixture(scope="module")
 def shards():
-    return [spectrum.compute(SPECTRA, f"{number}-of-2") for number in (1, 2)]
+    parts = [spectrum.compute(SPECTRA, f"{number}-of-2") for number in (1, 2)]
+    return {name: [part[name] for part in parts] for name in ("spectra", "cycles")}
 
 
 @pytest.fixture(scope="module")
 def tables(shards):
-    return as_written(spectra.compute(shards, SPECTRA, TIGHT))
+    return as_written(spectra.compute(*shards.values(), SPECTRA, TIGHT))
 
 
 def test_line_changes_what_its_label_says():
@@ -83,10 +84,10 @@ def test_line_changes_what_its_label_says():
 
 def test_sets_of_amplitudes():
     first, second = np.array([[1.0, 3.0], [4.0, 5.0]]), np.array([[2.0, 4.5]])
-    assert spectra.length(first) == 3.0
-    assert spectra.overlap(first, second) == 1.5
-    assert spectra.without(first, second) == [(1.0, 2.0), (4.5, 5.0)]
-    assert spectra.inside(second, np.array([1.9, 2.1])).tolist() == [False, True]
+    assert intervals.length(first) == 3.0
+    assert intervals.overlap(first, second) == 1.5
+    assert intervals.without(first, second) == [(1.0, 2.0), (4.5, 5.0)]
+    assert intervals.inside(second, np.array([1.9, 2.1])).tolist() == [False, True]
 
 
 def test_shares_are_those_of_known_intervals():
@@ -218,7 +219,7 @@ def test_minima_of_two_pulses_are_those_of_another_code():
 
 
 def test_collapse_compares_the_frame_with_a_column_of_its_restitution(shards):
-    table = spectra.collapse_of(spectra.Spectra(pd.concat(shards), 16.0))
+    table = spectra.collapse_of(spectra.Spectra(pd.concat(shards["spectra"]), 16.0))
     place = (5.0, "one-cosine", 2.0)
     block = line("restitution", math.inf, *place)
     (expected,) = table[table.ratio_to_p_hat == 2.0].frame
@@ -234,7 +235,7 @@ def judge_at(case, factor):
 
 
 def test_sample_notices_wrong_intervals(shards):
-    table = pd.concat(shards)
+    table = pd.concat(shards["spectra"])
     wrong = spectra.Spectra(table.assign(lower=1.02 * table.lower), 16.0)
     bands = wrong.bands([(spectra.frames([0.0])[0], spectra.frames([math.inf])[0])])
     with pytest.raises(SystemExit, match="the solvers say"):

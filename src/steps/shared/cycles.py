@@ -13,10 +13,9 @@ import pandas as pd
 
 from replication.step import check, grid, truth
 from steps.shared import plain, samples
-from steps.shared.cases import column_of
+from steps.shared.cases import column_of, pulse_on
 from steps.shared.falls import Fall, Lowest, fall, lowest_of, searched_finely, share_that_stays
 from steps.shared.lobes import record_of, sine
-from steps.shared.spectrum import FRAME, line
 from topheavy import Record, RockingFrame, judge
 
 SHAPE = "one-sine"
@@ -28,8 +27,8 @@ ASIDE = 1e-4  # of an end of an interval: where the plain solver judges
 CLOSE = 0.005  # g tan α, of an end of an interval under two pulses: likewise
 
 
-def minima(settings: Mapping[str, Any]) -> pd.DataFrame:
-    """Return for each structure and pulse the lowest amplitudes, over g tan α, that overturn.
+def minima(settings: Mapping[str, Any], number: int = 1, shards: int = 1) -> pd.DataFrame:
+    """Return for each structure and pulse of a shard the lowest amplitudes that overturn, g tan α.
 
     `lowest_found` and `lowest_upper` are the ends of the lowest interval that the search finds,
     `wide_minimum` and `wide_upper` those of the lowest wide one; they are infinite where there is
@@ -38,7 +37,7 @@ def minima(settings: Mapping[str, Any]) -> pd.DataFrame:
     """
     spec, gammas = settings["cycles"], settings["mass_ratios"]
     ratios = map(float, grid(spec["frequency_ratios"]))
-    places = [*product(spec["numbers"], settings["slendernesses"], ratios)]
+    places = [*product(spec["numbers"], settings["slendernesses"], ratios)][number - 1 :: shards]
     labels = [(*place, gamma) for place in places for gamma in gammas]
     rows: dict[tuple, Lowest] = {}
     for begin in range(0, len(labels), TOGETHER):
@@ -68,8 +67,9 @@ def any_falls(lighter: Lowest, heavier: Lowest) -> bool:
 
 def one_line(cycles: int, slenderness: float, ratio: float, gamma: float) -> tuple:
     """Return the block and its pulse with the amplitude g tan α."""
-    _, block, pulse = line(FRAME, gamma, slenderness, SHAPE, ratio, int(cycles))
-    return block, pulse
+    column = column_of(slenderness)
+    pulse = pulse_on(column, SHAPE, ratio, cycles=int(cycles))
+    return RockingFrame(column, gamma).block(), pulse
 
 
 def falls(table: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame:

@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import grid, run
+from steps.shared import cycles
 from steps.shared.cases import column_of, pulse_on
 from topheavy import FactorInterval, Pulse, RockingBlock, RockingFrame
 from topheavy.outcomes.search import intervals_of_many
@@ -31,13 +32,8 @@ class Line(NamedTuple):
     pulse: Pulse
 
 
-def line(
-    change: str, gamma: float, slenderness: float, shape: str, ratio: float, cycles: int = 1
-) -> Line:
-    """Return the line of a frame, by the `KEYS`, and the number of cycles of its pulse.
-
-    A slenderness is in degrees; a frequency is over p of the column.
-    """
+def line(change: str, gamma: float, slenderness: float, shape: str, ratio: float) -> Line:
+    """Return the line of the `KEYS`: slenderness in degrees, frequency over p of the column."""
     column = column_of(slenderness)
     frame, alone = RockingFrame(column, gamma).block(), column.block()
     block = {
@@ -45,7 +41,7 @@ def line(
         SIZE: frame.with_restitution(alone.restitution),
         RESTITUTION: alone.with_restitution(frame.restitution),
     }[change]
-    pulse = pulse_on(column, shape, ratio, cycles=cycles)
+    pulse = pulse_on(column, shape, ratio)
     labels = dict(zip(KEYS, (change, gamma, slenderness, shape, ratio), strict=True))
     return Line(labels, block, pulse)
 
@@ -165,20 +161,21 @@ def rows_of(of: Line, intervals: Sequence[FactorInterval]) -> Iterator[dict[str,
         }
 
 
-def compute(settings: dict, shard: str) -> pd.DataFrame:
-    """Return the spectra of frames, and of columns with the p̂ or the √r of the heaviest."""
+def compute(settings: dict, shard: str) -> dict[str, pd.DataFrame]:
+    """Return the part of a shard, "2-of-8", of the spectra, and of the minima of several cycles.
+
+    The spectra are those of frames, and of columns with the p̂ or the √r of the heaviest.
+    """
     structures = [(FRAME, gamma) for gamma in settings["mass_ratios"]]
     structures += [(change, max(settings["mass_ratios"])) for change in CHANGES[1:]]
     ratios = [*map(float, grid(settings["frequency_ratios"]))]
     labels = [*product(structures, settings["slendernesses"], settings["shapes"])]
-    number, of = map(int, shard.split("-of-"))
-    return solve(
-        [
-            [line(*structure, *rest, ratio) for ratio in ratios]
-            for structure, *rest in labels[number - 1 :: of]
-        ],
-        settings,
-    )
+    number, shards = map(int, shard.split("-of-"))
+    spectra = [
+        [line(*structure, *place, ratio) for ratio in ratios]
+        for structure, *place in labels[number - 1 :: shards]
+    ]
+    return {"spectra": solve(spectra, settings), "cycles": cycles.minima(settings, number, shards)}
 
 
 if __name__ == "__main__":
