@@ -64,11 +64,11 @@ def _likeliest(powers: Array, centred: Array, shares: Array) -> Array:
 
     NaN without convergence, which the score in the `powers` of ln s decides.
     """
+    result = np.full((len(shares), powers.shape[-1]), math.nan)
+    left = np.arange(len(shares))  # the curves that have not converged
     probit = ndtri(np.clip(shares, 0.02, 0.98))
     weights, slopes = np.ones_like(shares), np.zeros_like(shares)
-    terms = np.zeros((len(shares), powers.shape[-1]))
-    likely = np.full(len(shares), -math.inf)
-    score = np.zeros_like(terms)
+    terms, likely = np.zeros_like(result), np.full(len(shares), -math.inf)
     for passed in range(MAX_PASSES):
         normal = centred.T @ (weights[..., None] * centred)
         right = (weights * probit + slopes) @ centred
@@ -89,10 +89,14 @@ def _likeliest(powers: Array, centred: Array, shares: Array) -> Array:
         if passed >= EXPECTED_PASSES:
             weights = shares * up * (up + probit) + (1.0 - shares) * down * (down - probit)
         # At the maximum the residuals are orthogonal to every power.
-        score = np.abs(slopes @ powers)
-        if not (score >= SCORE_TOLERANCE).any():
-            return terms
-    return np.where(np.all(score < SCORE_TOLERANCE, axis=-1, keepdims=True), terms, math.nan)
+        moving = (np.abs(slopes @ powers) >= SCORE_TOLERANCE).any(axis=-1)
+        result[left[~moving]] = terms[~moving]
+        left, shares, probit, weights, slopes, terms, likely = (
+            values[moving] for values in (left, shares, probit, weights, slopes, terms, likely)
+        )
+        if not left.size:
+            break
+    return result
 
 
 def _share(line: Array) -> Array:
