@@ -255,7 +255,9 @@ BAD = {  # what the message begins with or has, and what is called
     "scale_range begins at -1;": lambda: lowest(PULSE, (-1.0, 1.0), floor=0.1),
     "floor is 1e-11 of 4.5 to 8": lambda: lowest(PULSE, (4.5, 8.0), floor=1e-11),
     "resolution is 1e-300 of 0 to 5": lambda: intervals((0.0, 5.0), resolution=1e-300),
-    "which goes on forever": lambda: th.overturning_spectrum(BLOCK, "harmonic", [1.0]),
+    "excitation goes on forever; expected": lambda: th.overturning_spectrum(
+        BLOCK, "harmonic", [1.0]
+    ),
     "highest is 0.5; exp": lambda: th.overturning_spectrum(BLOCK, "one-sine", 1, highest=0.5),
     "peak acceleration of the record is 0;": lambda: th.capacity(COLUMN, STILL),
     "factors do not increase": lambda: th.Capacity([1.0, 1.0], [True, True]),

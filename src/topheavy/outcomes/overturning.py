@@ -15,7 +15,7 @@ from topheavy.ground.shapes import FiniteShape
 from topheavy.kernel.forcing import pulse_waveform
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
-from topheavy.outcomes.simulate import as_shaking
+from topheavy.outcomes.simulate import Shaking
 
 if TYPE_CHECKING:
     import xarray
@@ -76,7 +76,7 @@ def overturning_map(
         column = structure if isinstance(structure, Column) else getattr(structure, "column", None)
         size = column.size if isinstance(column, Column) else solitary_size(p)
         frequencies = p * np.sqrt(size / axis)
-        waveform, factors = as_shaking(motion).waveform, accelerations / peak
+        waveform, factors = Shaking.of(motion).waveform, accelerations / peak
         rows = frequencies * motion.time_step
         dims = "size", "peak_acceleration"
         axes = {

@@ -19,13 +19,13 @@ from topheavy.bodies.structures import (
     as_block,
     named_blocks,
 )
-from topheavy.ground.excitation import Excitation, no_excitation
+from topheavy.ground.excitation import Excitation
 from topheavy.ground.pulses import Pulse
-from topheavy.ground.records import Record, both_records, check_no_free_fall
+from topheavy.ground.records import Record
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.step import TOLERANCE
 from topheavy.kernel.taylor import IMPACTS, OUTCOME, PEAK, Oscillator, oscillator
-from topheavy.outcomes.simulate import Shaking, as_shaking, checked_tolerance
+from topheavy.outcomes.simulate import Shaking, checked_tolerance
 
 if TYPE_CHECKING:
     import xarray
@@ -391,18 +391,11 @@ def cases_of(
 ) -> list[Case]:
     """Return structures under a motion as arguments of the kernel, or raise ValueError."""
     blocks = [as_block(structure) for structure in structures]
-    if excitation is None:
-        raise no_excitation(excitation)
-    if isinstance(excitation, Pulse) and excitation.duration == math.inf:
-        raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
     if isinstance(excitation, Pulse | Record):
         for factor in scale_range:
             excitation.scaled(factor)  # refuses a factor that is too large
     scale_vertical = checks.truth("scale_vertical", scale_vertical)
-    if vertical is not None:
-        _, up = both_records(excitation, vertical)
-        check_no_free_fall(up, scale_range if scale_vertical else 1.0)
-    motion = as_shaking(excitation, vertical)
+    motion = Shaking.of(excitation, vertical, factors=scale_range if scale_vertical else 1.0)
     return [Case(oscillator(b), motion, motion.scale(b), scale_vertical) for b in blocks]
 
 

@@ -114,9 +114,7 @@ def simulate(
     times = sample_times(samples)
     tolerance = checked_tolerance(tolerance)
     theta, theta_rate = initial_motion(block, rotation, velocity)
-    if vertical is not None:
-        check_no_free_fall(both_records(excitation, vertical)[1])
-    shaking = as_shaking(excitation, vertical)
+    shaking = Shaking.of(excitation, vertical, ends=False)
     p, scale = block.frequency_parameter, shaking.scale(block)
     if duration is not None:
         duration = checks.positive("duration", duration, "s")
@@ -199,10 +197,7 @@ def judge(
     >>> th.judge(th.Column(0.5, 3.0), pulse.scaled(0.2)).overturned
     True
     """
-    checked_excitation(excitation, ends=True)
-    if vertical is not None:
-        check_no_free_fall(both_records(excitation, vertical)[1])
-    block, shaking = as_block(structure), as_shaking(excitation, vertical)
+    shaking, block = Shaking.of(excitation, vertical), as_block(structure)
     return outcome_of(
         oscillator(block),
         shaking.waveform,
@@ -225,23 +220,38 @@ class Shaking(NamedTuple):
         p = block.frequency_parameter
         return p * self.rate if self.waveform.wave == RECORD else self.rate / p
 
+    @classmethod
+    def of(
+        cls,
+        excitation: Excitation | None,
+        vertical: Record | None = None,
+        *,
+        ends: bool = True,
+        factors: ArrayLike = 1.0,
+    ) -> Shaking:
+        """Check a ground motion and return it as the kernel reads it.
 
-def as_shaking(excitation: Excitation | None, vertical: Record | None = None) -> Shaking:
-    """Return a ground motion as the kernel reads it, or raise ValueError for anything else."""
-    if vertical is not None:
-        across, up = map(trim_zeros, both_records(excitation, vertical))
-        ratio = up.time_step / across.time_step
-        waveform = record_waveform(across.acceleration, up.acceleration, ratio)
-        return Shaking(waveform, across.time_step, 1.0)
-    match excitation:
-        case None:
-            return Shaking(NO_MOTION, 1.0, 0.0)
-        case Pulse():
-            waveform = pulse_waveform(excitation.shape, excitation.cycles)
-            return Shaking(waveform, excitation.angular_frequency, float(excitation.amplitude))
-        case Record():
-            return Shaking(_waveform(excitation), excitation.time_step, 1.0)
-    raise no_excitation(excitation)
+        `ends` says that it has to end, and then there has to be one; under the factors on the
+        vertical record the structure has to keep contact. Anything else raises ValueError.
+        """
+        if ends:
+            checked_excitation(excitation, ends=True)
+        if vertical is not None:
+            across, up = both_records(excitation, vertical)
+            check_no_free_fall(up, factors)
+            across, up = trim_zeros(across), trim_zeros(up)
+            ratio = up.time_step / across.time_step
+            waveform = record_waveform(across.acceleration, up.acceleration, ratio)
+            return cls(waveform, across.time_step, 1.0)
+        match excitation:
+            case None:
+                return cls(NO_MOTION, 1.0, 0.0)
+            case Pulse():
+                waveform = pulse_waveform(excitation.shape, excitation.cycles)
+                return cls(waveform, excitation.angular_frequency, float(excitation.amplitude))
+            case Record():
+                return cls(_waveform(excitation), excitation.time_step, 1.0)
+        raise no_excitation(excitation)
 
 
 @lru_cache(maxsize=2)

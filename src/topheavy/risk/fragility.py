@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import bdtr, betaincinv
 
 from topheavy import checks
-from topheavy.bodies.structures import Structures, named_blocks
+from topheavy.bodies.structures import RockingBlock, Structures, named_blocks
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.kernel.taylor import OUTCOME, PEAK
@@ -255,26 +255,13 @@ def fragility(
     confidence, resamples, seed = inputs.checked_resampling(confidence, resamples, seed)
     scales = inputs.scale_factors(steps, inputs.intensities(shaking, measure))
     ups = inputs.checked_vertical(vertical, len(shaking))
-    limit = rotation_limit
-    if limit is not None:
-        limit = checks.within_quarter_turn("rotation_limit", limit)
-    skewed, scale_vertical = (
-        checks.truth(name, value)
-        for name, value in (("skewed", skewed), ("scale_vertical", scale_vertical))
-    )
-
-    def outcomes_of(motion: Pulse | Record, up: Record | None, factors: Array) -> Outcomes:
-        peaks, overturned = peaks_and_outcomes(
-            [*blocks.values()],
-            motion,
-            factors,
-            vertical=up,
-            scale_vertical=scale_vertical,
-            detail=OUTCOME if limit is None else PEAK,
-        )
-        return overturned if limit is None else ~(peaks <= limit)  # also where it is NaN
-
-    outcomes = np.array([*map(outcomes_of, shaking, ups, scales)])
+    skewed = checks.truth("skewed", skewed)
+    scale_vertical = checks.truth("scale_vertical", scale_vertical)
+    if rotation_limit is not None:
+        rotation_limit = checks.within_quarter_turn("rotation_limit", rotation_limit)
+    question = [*blocks.values()], scale_vertical, rotation_limit
+    cases = zip(shaking, scales, ups, strict=True)
+    outcomes = np.array([exceeded(*case, *question) for case in cases])
     ensemble = Ensemble(outcomes, None, resamples, seed, confidence)
     curves, pairs, places = tables(ensemble, steps, skewed=skewed)
     names = list(blocks)
@@ -291,8 +278,24 @@ def fragility(
         measure=getattr(measure, "__name__", repr(measure)) if callable(measure) else measure,
         confidence=confidence,
         factors=(float(scales.min()), float(scales.max())),
-        rotation_limit=limit,
+        rotation_limit=rotation_limit,
     )
+
+
+def exceeded(
+    motion: Pulse | Record,
+    factors: Array,
+    vertical: Record | None,
+    blocks: Sequence[RockingBlock],
+    scale_vertical: bool,
+    limit: float | None,
+) -> Outcomes:
+    """Return which blocks overturn or rotate beyond a limit (rad), shape (blocks, factors)."""
+    detail = OUTCOME if limit is None else PEAK
+    peaks, overturned = peaks_and_outcomes(
+        blocks, motion, factors, vertical=vertical, scale_vertical=scale_vertical, detail=detail
+    )
+    return overturned if limit is None else ~(peaks <= limit)  # also where it is NaN
 
 
 def tables(
