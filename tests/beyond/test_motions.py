@@ -51,7 +51,7 @@ def test_outcomes_of_all_shards_are_those_of_single_motions(shards):
     assert velocities[0] == pytest.approx(0.35 * 9.81 * 0.275 / 4.2117, rel=1e-3)
     outcomes = sweep.outcomes(shards, f"{LAST}: trilith")
     assert outcomes.shape == (3, 6, 17)
-    assert sweep.outcomes(shards, f"{LAST}: temple").shape == (3, 7, 17)
+    assert sweep.outcomes(shards, f"{LAST}: fixed mass").shape == (3, 1, 17)
     record = sweep.models(SETTINGS)[LAST][1].record()
     scaled = record.scaled(velocities[8] / record.peak_velocity)
     place = 1 + SETTINGS["mass_ratios"].index(4.0)

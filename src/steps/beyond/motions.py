@@ -36,16 +36,18 @@ def compute(settings, structures, shards):
     column, names = columns[settings["structure"]], sets(settings)
     check_sample(sampled(shards, settings, column))
     tables = {name: [] for name in ("probabilities", "gains", "pairs", "fragility", "rotations")}
-    frames_only = slice(1 + len(settings["mass_ratios"]))  # the column's, without the fixed mass
     for model in models(settings):
         results = outcomes(shards, model)
         kept = (results != FREE_FALL).all(axis=(1, 2))
         tables["probabilities"].append(row(model, results[kept] == 1, settings))
         if not model.endswith(VERTICAL):
-            for name, one in columns.items():
+            for name, structure in columns.items():
                 fell = outcomes(shards, f"{model}: {name}") == 1
-                tables["gains"] += gains(model, name, fell[:, frames_only], settings, one)
-                tables["fragility"] += curves(model, name, fell.mean(axis=0), settings, one)
+                tables["gains"] += gains(model, name, fell, settings, structure)
+                shares = fell.mean(axis=0)
+                if model in names and name == settings["structure"]:
+                    shares = [*shares, *outcomes(shards, f"{model}: fixed mass").mean(axis=0)]
+                tables["fragility"] += curves(model, name, shares, settings, structure)
         if model in names:
             factors = settings["velocity"] / outcomes(shards, f"{model}: peaks")
             few = factors <= settings["largest_factor"]
@@ -55,7 +57,7 @@ def compute(settings, structures, shards):
             turned = outcomes(shards, f"{model}: rotations")
             tables["rotations"] += rotations(model, turned, settings)
     for name in columns:
-        fell = [outcomes(shards, f"{each}: {name}")[:, frames_only] == 1 for each in names]
+        fell = [outcomes(shards, f"{model}: {name}") == 1 for model in names]
         tables["pairs"] += pairs(name, fell, settings)
     gammas, narrow = [0.0, *settings["mass_ratios"]], settings["harmonic"]
     overturned = harmonic.outcomes(narrow, gammas, column)
@@ -111,7 +113,7 @@ def alone(ensemble, pairs):
     """Return how often only the heavier frame of a pair overturns, over how often the lighter."""
     fell = ensemble.outcomes
     orders = [order for light, heavy in pairs for order in ((light, heavy), (heavy, light))]
-    cases = np.stack([fell[:, one] & ~fell[:, other] for one, other in orders], axis=1)
+    cases = np.stack([fell[:, first] & ~fell[:, second] for first, second in orders], axis=1)
     means = ensemble.means(cases.sum(axis=-1))
     return means[:, 1::2] / means[:, ::2]
 
@@ -124,28 +126,28 @@ def pairs(structure, parts, settings):
     groups = np.repeat(range(len(parts)), [len(part) for part in parts]).tolist()
     ensemble = Ensemble(np.concatenate(parts), groups, **settings["bootstrap"])
     gammas = [0.0, *settings["mass_ratios"]]
-    both = [*combinations(range(len(gammas)), 2)]
-    ratios = alone(ensemble, both)
+    combined = [*combinations(range(len(gammas)), 2)]
+    ratios = alone(ensemble, combined)
     return [
         {"structure": structure, "lighter": gammas[light], "heavier": gammas[heavy]}
         | {"motions": len(groups)}
         | ensemble.bounds("ratio", ratios[:, place])
-        for place, (light, heavy) in enumerate(both)
+        for place, (light, heavy) in enumerate(combined)
     ]
 
 
 def curves(model, name, shares, settings, column):
     """Return the probability of each structure on a column over the velocity.
 
-    The fixed mass is on the stated column alone.
+    The fixed mass is on the stated column alone, under the sets and not under noise.
     """
     names = [("column", 0.0), *(("frame", gamma) for gamma in settings["mass_ratios"])]
-    names += [("fixed mass", settings["mass_ratio"])] * (name == settings["structure"])
+    names.append(("fixed mass", settings["mass_ratio"]))
     return [
         {"model": model, "column": name, "structure": structure, "mass_ratio": gamma}
         | {"velocity": velocity, "probability": share}
-        for (structure, gamma), of in zip(names, shares, strict=True)
-        for velocity, share in zip(frames(settings, column).velocities, of, strict=True)
+        for (structure, gamma), values in zip(names, shares, strict=False)
+        for velocity, share in zip(frames(settings, column).velocities, values, strict=True)
     ]
 
 
@@ -160,7 +162,7 @@ def rotations(model, peaks, settings):
     ends = {"_low": ordered[rank - 1], "": np.median(peaks, axis=0), "_high": ordered[-rank]}
     return [
         {"model": model, "mass_ratio": gamma, "velocity": velocity}
-        | {f"median_peak{end}": of[place, level] for end, of in ends.items()}
+        | {f"median_peak{end}": peaks_of[place, level] for end, peaks_of in ends.items()}
         for place, gamma in enumerate([0.0, *settings["mass_ratios"]])
         for level, velocity in enumerate(settings["rotations"]["velocities"])
     ]
@@ -173,9 +175,9 @@ def sampled(shards, settings, column):
     for place in np.linspace(0, len(motions) - 1, settings["sample"]).astype(int):
         model = [*motions][place]
         results = outcomes(shards, model)[..., 0]
-        at = int(random.choice(np.flatnonzero((results != FREE_FALL).all(axis=1))))
-        record, up = components(motions[model][at], settings)
-        for block, result in zip(question.blocks, results[at], strict=True):
+        number = int(random.choice(np.flatnonzero((results != FREE_FALL).all(axis=1))))
+        record, up = components(motions[model][number], settings)
+        for block, result in zip(question.blocks, results[number], strict=True):
             factor = settings["velocity"] / record.peak_velocity
             if up is None and random.integers(2):
                 factor = beside_a_boundary(partial(overturns, block, record, up), factor)
@@ -194,13 +196,13 @@ def findings(motions, motions_gains, motions_pairs, motions_harmonic, settings, 
     broadband = (motions_pairs.ratio_high < 1.0).all()
     return {
         f"gain_{name}": truth(
-            (some.gain_low > 0.0).all(),
-            least=some.gain.min(),
-            most=some.gain.max(),
-            low=some.gain_low.min(),
-            high=some.gain_high.max(),
+            (rows.gain_low > 0.0).all(),
+            least=rows.gain.min(),
+            most=rows.gain.max(),
+            low=rows.gain_low.min(),
+            high=rows.gain_high.max(),
         )
-        for name, some in equal.groupby("structure")
+        for name, rows in equal.groupby("structure")
     } | {
         "order": truth(
             ((motions.harm_low > 0.0) & (motions.benefit_low > 0.0)).all(),

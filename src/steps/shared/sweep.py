@@ -70,9 +70,9 @@ def models(settings: Settings) -> dict[str, list[Motion]]:
         by_model[name] = [Motion(random_motion(*part, number)) for number in range(count)]
     noise = settings["noise"]
     for place, (soil, corner) in enumerate(product(noise["soils"], noise["corners"])):
-        of = filtered_noise.Soil(soil, corner)
+        filters = filtered_noise.Soil(soil, corner)
         by_model[f"noise, soil {soil:g} Hz, filter {corner:g} Hz"] = [
-            Motion(partial(filtered_noise.motion, noise["seed"] + place, number, of))
+            Motion(partial(filtered_noise.motion, noise["seed"] + place, number, filters))
             for number in range(noise["motions"])
         ]
     by_model[sets(settings)[-1] + VERTICAL] = [
@@ -131,9 +131,12 @@ def restitution_question(settings: Settings, break_even: Settings, column: Colum
     frame = RockingFrame(column, settings["mass_ratio"])
     shares = [(column.block(), share) for share in reductions(break_even)]
     shares += [(frame.block(), share) for share in [0.0, *break_even["lowered"]]]
-    blocks = [one.with_restitution((1.0 - share) * one.restitution) for one, share in shares]
-    for one in (RockingFrame(column, 0.0), frame):
-        blocks.append(one.block(restitution_within(one, break_even["contact"])))
+    blocks = [
+        structure.with_restitution((1.0 - share) * structure.restitution)
+        for structure, share in shares
+    ]
+    for structure in (RockingFrame(column, 0.0), frame):
+        blocks.append(structure.block(restitution_within(structure, break_even["contact"])))
     return Question(blocks, np.array(break_even["velocities"]))
 
 
@@ -151,56 +154,57 @@ def answers(questions: Sequence[Question], record: Record, up: Record | None) ->
 
     A peak is that of |θ|/α, infinite where the structure overturns.
     """
-    grids = [np.tile(one.factors(record), (len(one.blocks), 1)) for one in questions]
+    grids = [np.tile(question.factors(record), (len(question.blocks), 1)) for question in questions]
     factors = np.concatenate([grid.ravel() for grid in grids])
     if up is not None and factors.max() * up.acceleration.min() <= -1.0:
         return [np.full(grid.shape, FREE_FALL, np.int8) for grid in grids]
-    blocks = [block for one in questions for block in one.blocks]
+    blocks = [block for question in questions for block in question.blocks]
     index = np.repeat(np.arange(len(blocks)), [row.size for grid in grids for row in grid])
     cases = cases_of(blocks, record, (factors.min(), factors.max()), up)
-    detail = PEAK if any(one.of_peaks for one in questions) else OUTCOME
+    detail = PEAK if any(question.of_peaks for question in questions) else OUTCOME
     peaks, overturned, _ = outcomes_of_factors(cases, index, factors, detail=detail)
-    found, ends = [], np.cumsum([grid.size for grid in grids])
-    for one, grid, end in zip(questions, grids, ends, strict=True):
-        some = slice(end - grid.size, end)
-        answer = overturned[some].astype(np.int8)
-        if one.of_peaks:
-            answer = np.nan_to_num(peaks[some] / one.blocks[0].slenderness, nan=np.inf)
-        found.append(answer.reshape(grid.shape))
-    return found
+    results, ends = [], np.cumsum([grid.size for grid in grids])
+    for question, grid, end in zip(questions, grids, ends, strict=True):
+        part = slice(end - grid.size, end)
+        answer = overturned[part].astype(np.int8)
+        if question.of_peaks:
+            answer = np.nan_to_num(peaks[part] / question.blocks[0].slenderness, nan=np.inf)
+        results.append(answer.reshape(grid.shape))
+    return results
 
 
 def compute(
     settings: Settings, break_even: Settings, structures: Mapping[str, Settings], shard: str
 ) -> dict[str, bytes]:
     """Return the outcomes of a shard, "2-of-8", and the peak velocities (m/s) of its motions."""
-    number, of = map(int, shard.split("-of-"))
+    number, shards = map(int, shard.split("-of-"))
     columns = {name: Column(**structures[name]) for name in settings["structures"]}
     column, spec = columns[settings["structure"]], settings["rotations"]
     tilted = Question(frames(settings, column).blocks, np.array(spec["velocities"]), of_peaks=True)
-    by_name = {name: frames(settings, one) for name, one in columns.items()}
-    by_name[settings["structure"]].blocks.append(compared(settings, column)[1])  # fixed mass
+    by_name = {name: frames(settings, structure) for name, structure in columns.items()}
+    fixed = Question([compared(settings, column)[1]], by_name[settings["structure"]].velocities)
     arrays: dict[str, Any] = {}
     for model, motions in models(settings).items():
         count, in_set = len(motions), model in sets(settings)
         fewer = settings["fewer"] if in_set else count
         questions = [(model, stated(settings, column), count)]
         if not model.endswith(VERTICAL):
-            questions += [(f"{model}: {name}", one, fewer) for name, one in by_name.items()]
+            questions += [(f"{model}: {name}", item, fewer) for name, item in by_name.items()]
         if in_set:
             lowered = restitution_question(settings, break_even, column)
+            questions.append((f"{model}: fixed mass", fixed, fewer))
             questions.append((f"{model}: lowered", lowered, count))
             questions.append((f"{model}: rotations", tilted, spec["motions"]))
         rows: dict[str, list] = {name: [] for name, *_ in questions}
         peaks = rows[f"{model}: peaks"] = []
-        for place in range(number - 1, count, of):
+        for place in range(number - 1, count, shards):
             record, up = components(motions[place], settings)
             peaks.append(record.peak_velocity)
-            some = [(name, one) for name, one, most in questions if place < most]
-            answered = answers([one for _, one in some], record, up)
-            for (name, _), answer in zip(some, answered, strict=True):
+            due = [(name, question) for name, question, most in questions if place < most]
+            answered = answers([question for _, question in due], record, up)
+            for (name, _), answer in zip(due, answered, strict=True):
                 rows[name].append(answer)
-        arrays |= {name: np.array(each) for name, each in rows.items()}
+        arrays |= {name: np.array(values) for name, values in rows.items()}
         print(f"{len(peaks)} motions, {model}", flush=True)
     content = BytesIO()
     np.savez_compressed(content, **arrays)
