@@ -85,23 +85,23 @@ class Spectra:
         return self.intervals.get(key, np.empty((0, 2)))
 
     def lowest(self, structure: tuple, place: tuple) -> float:
-        found = self.at(structure, place)
-        return float(found[0, 0]) if len(found) else math.inf
+        intervals = self.at(structure, place)
+        return float(intervals[0, 0]) if len(intervals) else math.inf
 
     def rises(self, pairs: Iterable[tuple]) -> list[tuple[float, tuple, tuple, tuple]]:
         """Return the ratio of the minima of each pair where one overturns, from the lowest on."""
-        found = []
+        ratios = []
         for (weaker, stronger), place in product(pairs, self.places(pairs)):
             low, high = self.lowest(weaker, place), self.lowest(stronger, place)
             if low < math.inf or high < math.inf:
-                found.append((high / low if low < math.inf else 0.0, place, weaker, stronger))
-        return sorted(found, key=lambda one: one[0])
+                ratios.append((high / low if low < math.inf else 0.0, place, weaker, stronger))
+        return sorted(ratios, key=lambda row: row[0])
 
     def places(self, pairs: Iterable[tuple]) -> Iterator[tuple]:
         """Yield the places at which all structures of the pairs are in the table."""
-        factor = max(one[2] for pair in pairs for one in pair)
+        factor = max(structure[2] for pair in pairs for structure in pair)
         ratios = [ratio for ratio in self.ratios if factor * ratio in self.ratios]
-        return ((*of, ratio) for of, ratio in product(self.maps, ratios))
+        return ((*labels, ratio) for labels, ratio in product(self.maps, ratios))
 
     def bands(self, pairs: list[tuple]) -> list[Band]:
         """Return all amplitudes that overturn the second structure of a pair alone."""
@@ -112,14 +112,18 @@ class Spectra:
             for ends in without(self.at(stronger, place), self.at(weaker, place))
         ]
 
-    def shares(self, weaker: tuple, stronger: tuple, of: tuple, every: int) -> tuple[float, float]:
+    def shares(
+        self, weaker: tuple, stronger: tuple, labels: tuple, every: int
+    ) -> tuple[float, float]:
         """Return the shares of a map that overturn one of two structures alone, by every n-th ω."""
         ratios = self.ratios[::every]
         lengths = []
         for ratio in ratios:
-            first, second = (self.at(one, (*of, ratio)) for one in (weaker, stronger))
-            both = overlap(first, second)
-            lengths.append((length(first) - both, length(second) - both))
+            first, second = (
+                self.at(structure, (*labels, ratio)) for structure in (weaker, stronger)
+            )
+            shared = overlap(first, second)
+            lengths.append((length(first) - shared, length(second) - shared))
         whole = (ratios[-1] - ratios[0]) * (self.last - 1.0)
         areas = np.trapezoid(np.maximum(lengths, 0.0), ratios, axis=0) / whole
         return float(areas[0]), float(areas[1])
@@ -139,14 +143,23 @@ def looked_again(table: pd.DataFrame, settings: dict) -> pd.DataFrame:
     while True:
         spectra, rows = Spectra(table, last), []
         closest = spectra.rises([*pairwise(frames(spectra.gammas))])[:LEAST_RISES]
-        for at in {(place, one) for _, place, *both in closest for one in both} - done:
-            place, structure = at
-            done.add(at)
+        for case in {
+            (place, structure) for _, place, *structures in closest for structure in structures
+        } - done:
+            place, structure = case
+            done.add(case)
             lowest = min(spectra.lowest(structure, place), last)
             if lowest > first:
-                of = line(*structure[:2], *place)
-                (found,) = search([of], (first, lowest), min(finest, lowest - first))
-                rows += rows_of(of, [one for one in found if one.upper and one.upper[1] < lowest])
+                item = line(*structure[:2], *place)
+                (intervals,) = search([item], (first, lowest), min(finest, lowest - first))
+                rows += rows_of(
+                    item,
+                    [
+                        interval
+                        for interval in intervals
+                        if interval.upper and interval.upper[1] < lowest
+                    ],
+                )
         if not rows:
             return table
         table = pd.concat([table, pd.DataFrame(rows)])
@@ -158,17 +171,17 @@ def areas_of(spectra: Spectra) -> pd.DataFrame:
     It is compared with the solitary column; the heaviest frame also with its equivalent column. The
     columns `…_by_two` and `…_by_four` have the shares by a frequency step so many times as wide.
     """
-    alone, *others = frames(spectra.gammas)
+    column, *others = frames(spectra.gammas)
     heaviest = [(change, spectra.gammas[-1], 1.0) for change in CHANGES]
-    asked = [(alone, one) for one in (*others, *heaviest[1:])]
-    asked.append((heaviest[CHANGES.index(SIZE)], heaviest[0]))
+    pairs = [(column, structure) for structure in (*others, *heaviest[1:])]
+    pairs.append((heaviest[CHANGES.index(SIZE)], heaviest[0]))
     rows = []
-    for of, (weaker, stronger) in product(spectra.maps, asked):
-        beside = "column" if weaker == alone else "equivalent column"
-        row = dict(zip(AREAS, (*of, *stronger[:2], beside), strict=True))
+    for labels, (weaker, stronger) in product(spectra.maps, pairs):
+        beside = "column" if weaker == column else "equivalent column"
+        row = dict(zip(AREAS, (*labels, *stronger[:2], beside), strict=True))
         for ending, every in (("", 1), ("_by_two", 2), ("_by_four", 4)):
-            found = spectra.shares(weaker, stronger, of, every)
-            row |= dict(zip((f"prevented{ending}", f"caused{ending}"), found, strict=True))
+            shares = spectra.shares(weaker, stronger, labels, every)
+            row |= dict(zip((f"prevented{ending}", f"caused{ending}"), shares, strict=True))
         rows.append(row)
     return pd.DataFrame(rows)
 
@@ -184,7 +197,9 @@ def collapse_of(spectra: Spectra) -> pd.DataFrame:
     for slenderness, shape, ratio in spectra.places([tuple(structures.values())]):
         row = {"slenderness_deg": slenderness, "shape": shape, "ratio_to_p_hat": ratio}
         place = (slenderness, shape, ratio)
-        rows.append(row | {name: spectra.lowest(one, place) for name, one in structures.items()})
+        rows.append(
+            row | {name: spectra.lowest(structure, place) for name, structure in structures.items()}
+        )
     return pd.DataFrame(rows)
 
 
@@ -193,41 +208,41 @@ def check_sample(spectra: Spectra, bands: list[Band], spec: dict, tightened: flo
     random = np.random.default_rng(spec["seed"])
     widths = np.array([band.high - band.low for band in bands])
     keys, cells = [*spectra.intervals], []
-    for at in random.choice(len(bands), spec["points"] // 2, p=widths / widths.sum()):
-        band = bands[at]
+    for number in random.choice(len(bands), spec["points"] // 2, p=widths / widths.sum()):
+        band = bands[number]
         amplitude = random.uniform(band.low, band.high)
         cells.append((band.survives, band.place, amplitude, False))
         cells.append((band.overturns, band.place, amplitude, True))
-    for at in random.integers(len(keys), size=spec["points"] // 2):
-        change, gamma, *place = keys[at]
-        intervals = spectra.intervals[keys[at]]
+    for number in random.integers(len(keys), size=spec["points"] // 2):
+        change, gamma, *place = keys[number]
+        intervals = spectra.intervals[keys[number]]
         away = random.choice([-1.0, 1.0]) * 10.0 ** random.uniform(*np.log10(NEAR))
         amplitude = intervals[0, 0] * (1.0 + away)
         expected = bool(inside(intervals, np.array([amplitude]))[0])
         cells.append(((change, gamma), tuple(place), amplitude, expected))
     lines = [line(*structure[:2], *place) for structure, place, *_ in cells]
-    pulses = [one.pulse.scaled(cell[2]) for one, cell in zip(lines, cells, strict=True)]
-    judged = [(one.block, pulse) for one, pulse in zip(lines, pulses, strict=True)]
-    ours = [judge(*each, tolerance=tightened) for each in judged]
-    for cell, *both in zip(cells, ours, plain.judge_pulses(judged), strict=True):
-        fell = [one.overturned for one in both]
+    pulses = [item.pulse.scaled(cell[2]) for item, cell in zip(lines, cells, strict=True)]
+    judged = [(item.block, pulse) for item, pulse in zip(lines, pulses, strict=True)]
+    ours = [judge(*case, tolerance=tightened) for case in judged]
+    for cell, *outcomes in zip(cells, ours, plain.judge_pulses(judged), strict=True):
+        fell = [item.overturned for item in outcomes]
         check(fell == [cell[-1]] * 2, f"the solvers say {fell}, expected of {cell}")
 
 
 def histories(band: Band) -> pd.DataFrame:
     """Return the rotations of both structures in the middle of a band."""
-    made = []
+    tables = []
     for structure in (band.survives, band.overturns):
         _, block, pulse = line(*structure[:2], *band.place)
         time = np.linspace(0.0, SHOWN * pulse.duration, SAMPLES)
         response = simulate(block, pulse.scaled(band.middle), samples=time)
         place = dict(zip(KEYS[2:], band.place, strict=True))
         rotation = response.rotation / block.slenderness
-        made.append(
+        tables.append(
             {**place, "amplitude_over_uplift": band.middle, "mass_ratio": structure[1]}
             | {"time_over_period": time / pulse.duration, "rotation_over_alpha": rotation}
         )
-    return pd.concat(map(pd.DataFrame, made))
+    return pd.concat(map(pd.DataFrame, tables))
 
 
 def compute(
@@ -326,16 +341,16 @@ def findings(
         for light, heavy in pairs
         for low, high in without(at_once.at(heavy, place), whole.at(light, place))
     ]
-    alone = spectra_areas[spectra_areas.beside == "column"]
-    heaviest = alone[alone.mass_ratio == whole.gammas[-1]]
+    beside_column = spectra_areas[spectra_areas.beside == "column"]
+    heaviest = beside_column[beside_column.mass_ratio == whole.gammas[-1]]
     frame = heaviest[heaviest.change == FRAME]
     prevented, caused = (mean(frame, name) for name in ("prevented", "caused"))
     several = cycles.finding(spectra_cycles, spectra_falls, settings)
     rises = all(ratio > 1.0 for ratio, *_ in neighbours)
-    found = several | apart(spectra_collapse, **settings["collapse"])
-    found |= {
+    results = several | apart(spectra_collapse, **settings["collapse"])
+    results |= {
         "minimum_rises_with_mass": truth(
-            rises and all(one["holds"] for one in several.values()),
+            rises and all(result["holds"] for result in several.values()),
             holds_when=rises,
             condition=ONE_CYCLE,
             comparisons=len(neighbours),
@@ -358,13 +373,15 @@ def findings(
     }
     for change in (SIZE, RESTITUTION):
         for name in ("prevented", "caused"):
-            found[f"{name}_by_{change}"] = value(*mean(heaviest[heaviest.change == change], name))
-    by_size, by_restitution = (found[f"caused_by_{one}"]["value"] for one in (SIZE, RESTITUTION))
-    found["caused_by_the_size"] = truth(by_size > MANY * by_restitution)
+            results[f"{name}_by_{change}"] = value(*mean(heaviest[heaviest.change == change], name))
+    by_size, by_restitution = (
+        results[f"caused_by_{change}"]["value"] for change in (SIZE, RESTITUTION)
+    )
+    results["caused_by_the_size"] = truth(by_size > MANY * by_restitution)
     twin = spectra_areas[spectra_areas.beside == "equivalent column"]
     differs = zip(*(mean(twin, name) for name in ("prevented", "caused")), strict=True)
     largest = (twin.prevented + twin.caused).max()
-    return found | {"equivalent_column_differs": value(*map(sum, differs), largest=largest)}
+    return results | {"equivalent_column_differs": value(*map(sum, differs), largest=largest)}
 
 
 if __name__ == "__main__":

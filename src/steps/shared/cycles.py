@@ -41,22 +41,29 @@ def minima(settings: Mapping[str, Any], number: int = 1, shards: int = 1) -> pd.
     labels = [(*place, gamma) for place in places for gamma in gammas]
     rows: dict[tuple, Lowest] = {}
     for begin in range(0, len(labels), TOGETHER):
-        some = labels[begin : begin + TOGETHER]
-        blocks, pulses = zip(*(one_line(*at) for at in some), strict=True)
+        group = labels[begin : begin + TOGETHER]
+        blocks, pulses = zip(*(one_line(*label) for label in group), strict=True)
         lowest = lowest_of(blocks, pulses, spec["highest"], spec["wide"])
-        rows |= zip(some, lowest, strict=True)
+        rows |= zip(group, lowest, strict=True)
         print(f"{len(rows)} of {len(labels)} lines of several cycles", flush=True)
     pairs = [((*place, a), (*place, b)) for place in places for a, b in combinations(gammas, 2)]
     while True:
-        fell = {at for pair in pairs if any_falls(*(rows[at] for at in pair)) for at in pair}
-        coarse = [at for at in labels if at in fell and rows[at].searched == spec["wide"]]
+        fell = {
+            label for pair in pairs if any_falls(*(rows[label] for label in pair)) for label in pair
+        }
+        coarse = [
+            label for label in labels if label in fell and rows[label].searched == spec["wide"]
+        ]
         if not coarse:
             break
-        for at in coarse:
-            rows[at] = searched_finely(*one_line(*at), rows[at], spec["highest"], spec["wide"])
+        for label in coarse:
+            rows[label] = searched_finely(
+                *one_line(*label), rows[label], spec["highest"], spec["wide"]
+            )
         print(f"{len(coarse)} lines searched finely", flush=True)
     return pd.DataFrame(
-        [(*at, *lowest) for at, lowest in rows.items()], columns=[*PLACE, "mass_ratio", *FOUND]
+        [(*label, *lowest) for label, lowest in rows.items()],
+        columns=[*PLACE, "mass_ratio", *FOUND],
     )
 
 
@@ -80,9 +87,9 @@ def falls(table: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame:
     """
     spec, rows = settings["cycles"], []
     for place, lines in table.groupby(PLACE):
-        found = {row.mass_ratio: Lowest(*row[FOUND]) for _, row in lines.iterrows()}
-        for light, heavy in combinations(sorted(found), 2):
-            lighter, heavier = found[light], found[heavy]
+        lowest = {row.mass_ratio: Lowest(*row[FOUND]) for _, row in lines.iterrows()}
+        for light, heavy in combinations(sorted(lowest), 2):
+            lighter, heavier = lowest[light], lowest[heavy]
             counts = fall(lighter, heavier)
             if any_falls(lighter, heavier):
                 upper = min(heavier.wide_upper, spec["highest"])
@@ -96,12 +103,12 @@ def falls(table: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame:
                 )
     names = ["lighter", "lighter_from", "lighter_width", "heavier", "heavier_from", "heavier_width"]
     columns = [*PLACE, *names, *Fall._fields]
-    made = pd.DataFrame(rows, columns=columns).assign(stays=math.nan)
+    result = pd.DataFrame(rows, columns=columns).assign(stays=math.nan)
     for pairs in kinds(settings["mass_ratios"]).values():
-        for _, row in largest(made, pairs).iterrows():
+        for _, row in largest(result, pairs).iterrows():
             check_fall(row)
-            made.loc[row.name, "stays"] = stays(row, spec)
-    return made
+            result.loc[row.name, "stays"] = stays(row, spec)
+    return result
 
 
 def kinds(gammas: Sequence[float]) -> dict[str, list[tuple[float, float]]]:
@@ -113,20 +120,20 @@ def kinds(gammas: Sequence[float]) -> dict[str, list[tuple[float, float]]]:
     }
 
 
-def strict_falls(made: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> pd.DataFrame:
+def strict_falls(falls: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> pd.DataFrame:
     """Return the rows of the pairs that fall by the strict count."""
-    return of_pairs(made[made.strict > 0.0], pairs)
+    return of_pairs(falls[falls.strict > 0.0], pairs)
 
 
-def of_pairs(made: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> pd.DataFrame:
+def of_pairs(falls: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> pd.DataFrame:
     """Return the rows of the pairs."""
-    is_one = [pair in pairs for pair in zip(made.lighter, made.heavier, strict=True)]
-    return made[np.array(is_one, dtype=bool)]
+    is_one = [pair in pairs for pair in zip(falls.lighter, falls.heavier, strict=True)]
+    return falls[np.array(is_one, dtype=bool)]
 
 
-def largest(made: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> pd.DataFrame:
+def largest(falls: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> pd.DataFrame:
     """Return the largest strict fall of the pairs for each number of cycles: those are quoted."""
-    rows = strict_falls(made, pairs)
+    rows = strict_falls(falls, pairs)
     return rows.loc[rows.groupby("cycles").strict.idxmax()]
 
 
@@ -148,31 +155,33 @@ def check_fall(row: pd.Series) -> None:
         ("lighter", row.lighter_from * (1.0 - ASIDE), False),
     ):
         block, pulse = one_line(*row[PLACE], row[name])
-        both = {solve(block, pulse.scaled(factor)).overturned for solve in (judge, plain.judge)}
-        check(both == {expected}, f"{dict(row)}: the {name} at {factor:.9g}: {both}")
+        outcomes = {solve(block, pulse.scaled(factor)).overturned for solve in (judge, plain.judge)}
+        check(outcomes == {expected}, f"{dict(row)}: the {name} at {factor:.9g}: {outcomes}")
 
 
-def finding(table: pd.DataFrame, made: pd.DataFrame, settings: Mapping[str, Any]) -> dict[str, Any]:
+def finding(
+    table: pd.DataFrame, falls: pd.DataFrame, settings: Mapping[str, Any]
+) -> dict[str, Any]:
     """Return whether the minimum never falls between frames, and never below the column's.
 
     `exceptions_by_wide` and `exceptions_by_any_width` are the numbers by the two looser counts.
     """
-    found = {}
+    results = {}
     for name, pairs in kinds(settings["mass_ratios"]).items():
-        rows, looser = strict_falls(made, pairs), of_pairs(made, pairs)
+        rows, looser = strict_falls(falls, pairs), of_pairs(falls, pairs)
         evidence = {"comparisons": compared(table, pairs), "exceptions": len(rows)}
         evidence |= {f"exceptions_{by}": int((looser[by] > 0.0).sum()) for by in Fall._fields[1:]}
         evidence |= {f"largest_{by}": max([0.0, *looser[by].dropna()]) for by in Fall._fields[1:]}
         evidence["slendernesses"] = rows.slenderness_deg.nunique()
-        for _, row in largest(made, pairs).iterrows():
+        for _, row in largest(falls, pairs).iterrows():
             number = int(row.cycles)
             shown = {"fall": row.strict, "frequency_ratio": row.frequency_ratio, "stays": row.stays}
             shown |= {"width": row.heavier_width, "width_of_lighter": row.lighter_width}
             shown |= {"from": row.heavier_from, "from_of_lighter": row.lighter_from}
             shown |= {key: f"{row[key]:g}" for key in PAIR}
             evidence |= {f"{key}_{number}": content for key, content in shown.items()}
-        found[name] = truth(rows.empty, **evidence)
-    return found
+        results[name] = truth(rows.empty, **evidence)
+    return results
 
 
 def compared(table: pd.DataFrame, pairs: Sequence[tuple[float, float]]) -> int:

@@ -35,11 +35,11 @@ class Line(NamedTuple):
 def line(change: str, gamma: float, slenderness: float, shape: str, ratio: float) -> Line:
     """Return the line of the `KEYS`: slenderness in degrees, frequency over p of the column."""
     column = column_of(slenderness)
-    frame, alone = RockingFrame(column, gamma).block(), column.block()
+    frame, solitary = RockingFrame(column, gamma).block(), column.block()
     block = {
         FRAME: frame,
-        SIZE: frame.with_restitution(alone.restitution),
-        RESTITUTION: alone.with_restitution(frame.restitution),
+        SIZE: frame.with_restitution(solitary.restitution),
+        RESTITUTION: solitary.with_restitution(frame.restitution),
     }[change]
     pulse = pulse_on(column, shape, ratio)
     labels = dict(zip(KEYS, (change, gamma, slenderness, shape, ratio), strict=True))
@@ -54,49 +54,61 @@ def solve(spectra: Sequence[Sequence[Line]], settings: Mapping[str, Any]) -> pd.
     """
     amplitudes, again = settings["amplitudes"], settings["again"]
     ends = (amplitudes["lowest"], amplitudes["highest"])
-    lines = [one for spectrum in spectra for one in spectrum]
+    lines = [item for spectrum in spectra for item in spectrum]
 
     def searched(places: Sequence[int], resolution: float) -> list[list[FactorInterval]]:
         intervals: list[list[FactorInterval]] = []
         for begin in range(0, len(places), TOGETHER):
-            some = [lines[at] for at in places[begin : begin + TOGETHER]]
-            intervals += search_finely(some, ends, resolution, settings)
+            group = [lines[place] for place in places[begin : begin + TOGETHER]]
+            intervals += search_finely(group, ends, resolution, settings)
             print(f"{len(intervals)} of {len(places)} lines", flush=True)
         return intervals
 
     def search_again(places: Sequence[int]) -> list[int]:
         """Return at which places this finds other intervals, and replace them."""
         pairs = zip(places, searched(places, again["resolution"]), strict=True)
-        other = {at: intervals for at, intervals in pairs if not same(intervals, found[at])}
-        for at, intervals in other.items():
-            found[at] = intervals
-        return [*other]
+        changed = {
+            place: intervals
+            for place, intervals in pairs
+            if not same(intervals, intervals_of[place])
+        }
+        for place, intervals in changed.items():
+            intervals_of[place] = intervals
+        return [*changed]
 
-    found = searched(range(len(lines)), amplitudes["resolution"])
+    intervals_of = searched(range(len(lines)), amplitudes["resolution"])
     ends_in_lines = accumulate(map(len, spectra))
-    places = [range(end - len(one), end) for one, end in zip(spectra, ends_in_lines, strict=True)]
-    sample = [at for some in places for at in some[:: again["every"]]]
+    places = [
+        range(end - len(spectrum), end)
+        for spectrum, end in zip(spectra, ends_in_lines, strict=True)
+    ]
+    sample = [place for group in places for place in group[:: again["every"]]]
     different, beside = {*search_again(sample)}, set()
-    for some in places:
-        for at in different & {*some}:
-            beside |= {at - 1, at + 1} & {*some}
+    for group in places:
+        for place in different & {*group}:
+            beside |= {place - 1, place + 1} & {*group}
     search_again(sorted(beside - {*sample}))
     print(f"{len(different)} of {len(sample)} lines have other intervals in narrower steps")
     rows = (
-        row for one, intervals in zip(lines, found, strict=True) for row in rows_of(one, intervals)
+        row
+        for item, intervals in zip(lines, intervals_of, strict=True)
+        for row in rows_of(item, intervals)
     )
     return pd.DataFrame(rows, columns=[*KEYS, "lower", "upper", "mode"])
 
 
-def same(some: Sequence[FactorInterval], others: Sequence[FactorInterval]) -> bool:
+def same(first: Sequence[FactorInterval], second: Sequence[FactorInterval]) -> bool:
     """Return whether two searches find the same intervals, but for the width of their brackets."""
     ends = [
-        [(*one.lower, *(one.upper or ()), one.number_of_impacts) for one in intervals]
-        for intervals in (some, others)
+        [
+            (*interval.lower, *(interval.upper or ()), interval.number_of_impacts)
+            for interval in intervals
+        ]
+        for intervals in (first, second)
     ]
-    return len(some) == len(others) and all(
-        len(one) == len(other) and np.allclose(one, other, rtol=SAME, atol=0.0)
-        for one, other in zip(*ends, strict=True)
+    return len(first) == len(second) and all(
+        len(interval) == len(twin) and np.allclose(interval, twin, rtol=SAME, atol=0.0)
+        for interval, twin in zip(*ends, strict=True)
     )
 
 
@@ -107,7 +119,7 @@ def search(
     finer: tuple[float, float] | None = None,
 ) -> list[list[FactorInterval]]:
     """Return the intervals of each line in a range, none wider than the resolution missed."""
-    blocks, pulses = [one.block for one in lines], [one.pulse for one in lines]
+    blocks, pulses = [item.block for item in lines], [item.pulse for item in lines]
     return intervals_of_many(
         blocks, pulses, ends, resolution=resolution, most_impacts=1, finer=finer
     )
@@ -122,42 +134,44 @@ def search_finely(
         settings["finer"]["resolution"],
         settings["near"],
     )
-    found = search(lines, ends, resolution, (below, finest))
+    results = search(lines, ends, resolution, (below, finest))
 
     def add(
         places: Sequence[int], scales: Sequence[float], more: list[list[FactorInterval]]
     ) -> None:
         """Put intervals before those of their lines that begin higher."""
-        for at, scale, intervals in zip(places, scales, more, strict=True):
-            found[at] = [
+        for place, scale, intervals in zip(places, scales, more, strict=True):
+            results[place] = [
                 FactorInterval(
-                    (scale * one.lower[0], scale * one.lower[1]),
-                    (scale * one.upper[0], scale * one.upper[1]),
-                    one.number_of_impacts,
+                    (scale * interval.lower[0], scale * interval.lower[1]),
+                    (scale * interval.upper[0], scale * interval.upper[1]),
+                    interval.number_of_impacts,
                 )
-                for one in intervals
-                if one.upper and scale * one.upper[1] < found[at][0].lower[0]
-            ] + found[at]
+                for interval in intervals
+                if interval.upper and scale * interval.upper[1] < results[place][0].lower[0]
+            ] + results[place]
 
-    minima = {at: some[0].lower[1] for at, some in enumerate(found) if some}
-    places = [at for at, minimum in minima.items() if minimum >= below]
-    scaled = [lines[at]._replace(pulse=lines[at].pulse.scaled(minima[at])) for at in places]
+    minima = {place: intervals[0].lower[1] for place, intervals in enumerate(results) if intervals}
+    places = [place for place, minimum in minima.items() if minimum >= below]
+    scaled = [
+        lines[place]._replace(pulse=lines[place].pulse.scaled(minima[place])) for place in places
+    ]
     more = search(scaled, (1.0 - near["share"], 1.0), near["resolution"])
-    add(places, [minima[at] for at in places], more)
-    places = [at for at in places if found[at][0].lower[1] < below]
-    more = search([lines[at] for at in places], (ends[0], below), finest)
+    add(places, [minima[place] for place in places], more)
+    places = [place for place in places if results[place][0].lower[1] < below]
+    more = search([lines[place] for place in places], (ends[0], below), finest)
     add(places, [1.0] * len(places), more)
-    return found
+    return results
 
 
-def rows_of(of: Line, intervals: Sequence[FactorInterval]) -> Iterator[dict[str, Any]]:
+def rows_of(item: Line, intervals: Sequence[FactorInterval]) -> Iterator[dict[str, Any]]:
     """Yield a row for each interval; it has no upper end where the range ends first."""
-    for one in intervals:
-        upper = sum(one.upper) / 2.0 if one.upper else None
-        yield of.labels | {
-            "lower": sum(one.lower) / 2.0,
+    for interval in intervals:
+        upper = sum(interval.upper) / 2.0 if interval.upper else None
+        yield item.labels | {
+            "lower": sum(interval.lower) / 2.0,
             "upper": upper,
-            "mode": MODES[one.number_of_impacts],
+            "mode": MODES[interval.number_of_impacts],
         }
 
 

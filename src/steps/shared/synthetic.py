@@ -208,11 +208,11 @@ def parameters(rng: np.random.Generator, scenario: Scenario, pulse: bool) -> dic
             continue
         values = np.round(means + model.deviations * errors, DIGITS)
         normal = dict(zip(model.names, values, strict=True))
-        drawn = {name: _MARGINALS.get(name, math.exp)(value) for name, value in normal.items()}
-        if "Vp" in drawn and drawn["tp"] < drawn["gamma"] * drawn["Tp"] / 2.0:
+        numbers = {name: _MARGINALS.get(name, math.exp)(value) for name, value in normal.items()}
+        if "Vp" in numbers and numbers["tp"] < numbers["gamma"] * numbers["Tp"] / 2.0:
             continue  # the pulse would begin before the motion [4, 5]
-        shape = envelope(drawn["D0_5"], drawn["D0_30"], drawn["D0_5"] + drawn["D5_95"])
-        return drawn | dict(zip(("rise", "decay", "peak"), shape, strict=True))
+        shape = envelope(numbers["D0_5"], numbers["D0_30"], numbers["D0_5"] + numbers["D5_95"])
+        return numbers | dict(zip(("rise", "decay", "peak"), shape, strict=True))
 
 
 def _slope(value: float) -> float:
@@ -250,9 +250,9 @@ def envelope(t5: float, t30: float, t95: float) -> tuple[float, float, float]:
 
     def slopes(free: Vector) -> Vector:
         # SciPy's own differences to the last bit; all that it asks before each takes twice the time
-        here, ahead = misfit(free), free + SMALL * np.copysign(np.maximum(1.0, np.abs(free)), free)
+        value, ahead = misfit(free), free + SMALL * np.copysign(np.maximum(1.0, np.abs(free)), free)
         moved = np.where(np.eye(3, dtype=bool), ahead, free)
-        return np.transpose([misfit(x) - here for x in moved]) / (ahead - free)
+        return np.transpose([misfit(x) - value for x in moved]) / (ahead - free)
 
     start = [float(logit(0.7)), math.log(2.0 / t95), math.log(t30)]
     return shape(least_squares(misfit, start, slopes, method="lm", xtol=1e-10).x)
@@ -280,15 +280,15 @@ def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record
     of the two horizontal components, with a pulse the one that holds it.
     """
     rng = generator(seed, number)
-    drawn = parameters(rng, scenario, pulse)
-    time = np.arange(math.ceil(2.5 * (drawn["D0_5"] + drawn["D5_95"]) / TIME_STEP)) * TIME_STEP
-    noise = filtered(rng.standard_normal(time.size), frequency(time, drawn), drawn["damping"])
+    numbers = parameters(rng, scenario, pulse)
+    time = np.arange(math.ceil(2.5 * (numbers["D0_5"] + numbers["D5_95"]) / TIME_STEP)) * TIME_STEP
+    noise = filtered(rng.standard_normal(time.size), frequency(time, numbers), numbers["damping"])
     corner = 10.0 ** (1.4071 - 0.3452 * scenario.magnitude)  # Hz [4, 5]
-    shape = modulation(time, drawn["rise"], drawn["decay"], drawn["peak"])
+    shape = modulation(time, numbers["rise"], numbers["decay"], numbers["peak"])
     shaking, before = high_passed(noise * shape, corner)
-    shaking *= math.sqrt(drawn["Ia"] / 100.0 / arias_intensity(shaking))
+    shaking *= math.sqrt(numbers["Ia"] / 100.0 / arias_intensity(shaking))
     if pulse:
-        shaking[before : before + time.size] += pulse_acceleration(time, drawn)
+        shaking[before : before + time.size] += pulse_acceleration(time, numbers)
     return Record(
         TIME_STEP, shaking, f"{'near fault' if pulse else 'broadband'} {seed}:{number}", unit="g"
     )
@@ -303,11 +303,13 @@ def modulation(time, rise, decay, peak):
     return values
 
 
-def frequency(time: Vector, drawn: dict[str, float]) -> Vector:
+def frequency(time: Vector, numbers: dict[str, float]) -> Vector:
     """Return the frequency of the filter in Hz: linear between 1 and 99 % Arias, then constant."""
-    start, middle, end = times_of((0.01, 0.30, 0.99), drawn["rise"], drawn["decay"], drawn["peak"])
-    drift = drawn["f_slope"] * (np.clip(time, start, end) - middle)
-    return np.maximum(drawn["f_mid"] + drift, LOWEST_FREQUENCY)
+    start, middle, end = times_of(
+        (0.01, 0.30, 0.99), numbers["rise"], numbers["decay"], numbers["peak"]
+    )
+    drift = numbers["f_slope"] * (np.clip(time, start, end) - middle)
+    return np.maximum(numbers["f_mid"] + drift, LOWEST_FREQUENCY)
 
 
 @njit(cache=True)
@@ -377,15 +379,15 @@ def between_zeros(
     return irfft(rfft(padded) * gains, size), zeros
 
 
-def pulse_acceleration(time: Vector, drawn: dict[str, float]) -> Vector:
+def pulse_acceleration(time: Vector, numbers: dict[str, float]) -> Vector:
     """Return the acceleration of the pulse in g: that of [3], less what would displace. [1]
 
     Its velocity is {V_p/2 cos(2π(t − t_p)/T_p + ν) − D_r/(γT_p)} {1 + cos(2π(t − t_p)/(γT_p))}
     for |t − t_p| ≤ γT_p/2, and D_r is the displacement that the first term alone would leave.
     """
-    turns = (time - drawn["tp"]) / drawn["Tp"]
-    slope = _pulse_slope(turns, math.pi * drawn["nu"], drawn["gamma"])
-    return drawn["Vp"] / 100.0 * slope * 2.0 * math.pi / drawn["Tp"] / STANDARD_GRAVITY
+    turns = (time - numbers["tp"]) / numbers["Tp"]
+    slope = _pulse_slope(turns, math.pi * numbers["nu"], numbers["gamma"])
+    return numbers["Vp"] / 100.0 * slope * 2.0 * math.pi / numbers["Tp"] / STANDARD_GRAVITY
 
 
 @njit(cache=True)
