@@ -2,18 +2,21 @@
 
 import math
 
+import numpy as np
 import pandas as pd
 import pytest
 import yaml
 
 import refute
+from replication.config import read_yaml
 from steps.beyond import worst_found
 from steps.shared import sentences
 from tests.cases import COLUMN, CONFIG
 from topheavy import Record
 
-CYCLES = "; ".join(f"{sign}0.456 0.3" for sign in "+-" * 3)
 SPEC = CONFIG["spectra"]["cycles"] | {"draws": 2}
+ENTRY, HEIGHT = read_yaml(refute.CASES)[0], COLUMN.half_height
+CASE = worst_found.case_of(ENTRY, HEIGHT)
 
 
 def test_a_sentence_compares_the_pairs_that_it_speaks_of():
@@ -21,7 +24,7 @@ def test_a_sentence_compares_the_pairs_that_it_speaks_of():
     gammas = [0.0, 1.0, math.inf]
     assert known["frame_over_column"].pairs(gammas) == [(0.0, 1.0), (0.0, math.inf)]
     assert known["heavier_over_lighter"].pairs(gammas) == [(1.0, math.inf)]
-    assert {case["sentence"] for case in worst_found.read_cases(refute.CASES)} == {*known}
+    assert {case["sentence"] for case in read_yaml(refute.CASES)} == {*known}
 
 
 def test_lobes_in_words_are_signed_and_may_have_a_pause():
@@ -39,39 +42,47 @@ def test_half_the_range_of_the_velocity_is_that_of_its_integral():
 
 
 def test_a_case_keeps_its_fall_and_another_value_stops_the_step():
-    case, height = worst_found.read_cases(refute.CASES)[0], COLUMN.half_height
-    row = worst_found.row_of_case(case, height, SPEC, CONFIG["contacts"])
-    assert row["strict"] == pytest.approx(case["fall"], abs=1e-4)
+    row = worst_found.row_of_case(ENTRY, CASE, SPEC, CONFIG["contacts"], HEIGHT)
+    assert row["strict"] == pytest.approx(ENTRY["fall"], abs=1e-4)
     assert row["heavier_from"] < row["lighter_from"]
     assert row["heavier_width"] >= SPEC["wide"]
     assert row["least_vertical"] > 0.0
     with pytest.raises(SystemExit, match=r"has a fall of 0\.\d+; expected 0.9"):
-        worst_found.row_of_case(case | {"fall": 0.9}, height, SPEC, CONFIG["contacts"])
+        worst_found.row_of_case(ENTRY | {"fall": 0.9}, CASE, SPEC, CONFIG["contacts"], HEIGHT)
 
 
 def test_a_motion_contradicts_a_sentence_or_none(monkeypatch):
     monkeypatch.setitem(CONFIG["motions"], "structures", ["temple"])
     lines = "\n".join(refute.answer("+1.5 0.3; -1.5 0.3", CONFIG))
     assert lines.count("not contradicted, up to a peak of 4.5 g tan α") == 2
-    case = worst_found.read_cases(refute.CASES)[0]
-    column, lobes = worst_found.column_and_lobes(case, 3.0)
+    column = CASE.structures[0]
     narrow = {"half_width": column.half_width, "half_height": column.half_height}
     monkeypatch.setitem(CONFIG["structures"], "temple", narrow)
-    words = "; ".join(f"{one.sign * one.length:+} {one.amplitude} {one.pause}" for one in lobes)
-    lines = "\n".join(refute.answer(words, CONFIG))
+    words = [f"{lobe.sign * lobe.length:+} {lobe.amplitude} {lobe.pause}" for lobe in CASE.lobes]
+    lines = "\n".join(refute.answer("; ".join(words), CONFIG))
     assert "contradicted by" in lines
     assert "an example" in lines
 
 
+def test_a_search_finds_a_case_that_its_draws_keep(monkeypatch):
+    random = np.random.default_rng(1)
+    assert refute.varied(ENTRY, random)["lobes"] != ENTRY["lobes"]
+    value, comparison = refute.kept_fall(CASE, 0.0, 0, 1, SPEC)
+    assert value == comparison.fall.strict > 0.0
+    assert refute.kept_fall(CASE, value, 4, 1, SPEC)[0] == -1.0
+    monkeypatch.setattr(refute, "strict_falls", lambda *_: iter([0.1, 0.001, 0.2, math.nan]))
+    assert refute.kept_fall(CASE, 0.0, 4, 1, SPEC)[0] == 0.001
+
+
 def test_only_a_worse_case_is_added(tmp_path, monkeypatch):
-    cases = worst_found.read_cases(refute.CASES)
     path, case = tmp_path / "found.yaml", tmp_path / "case.yaml"
-    path.write_text(f"# head\n{refute.in_yaml(cases)}")
+    path.write_text(f"# head\n{refute.in_yaml([ENTRY])}")
     monkeypatch.setattr(refute, "CASES", str(path))
-    monkeypatch.setattr(refute, "row_of_case", lambda *_: None)
-    case.write_text(refute.in_yaml(cases[0]))
+    row = {"stays": 0.5}
+    monkeypatch.setattr(refute, "row_of_case", lambda entry, *_: row | {"strict": entry["fall"]})
+    case.write_text(refute.in_yaml(ENTRY))
     assert "not added" in refute.add(str(case), CONFIG)
-    case.write_text(refute.in_yaml(cases[0] | {"fall": 0.5}))
+    case.write_text(refute.in_yaml(ENTRY | {"fall": 0.5}))
     assert "has it" in refute.add(str(case), CONFIG)
     assert path.read_text().startswith("# head\n")
     assert yaml.safe_load(path.read_text())[0]["fall"] == 0.5

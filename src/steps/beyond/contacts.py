@@ -61,9 +61,14 @@ def frame_name(gamma: float) -> str:
     return "frame, γ → ∞" if math.isinf(gamma) else f"frame, γ = {gamma:g}" if gamma else "column"
 
 
+def structure_of(column: Column, gamma: float) -> Column | RockingFrame:
+    """Return the column (γ = 0) or its frame."""
+    return RockingFrame(column, gamma) if gamma else column
+
+
 def of_mass(column: Column, *gammas: float) -> dict[str, Bearing]:
-    """Return the column for γ = 0, and its frames."""
-    return {frame_name(g): RockingFrame(column, g) if g else column for g in gammas}
+    """Return the column and its frames by their names."""
+    return {frame_name(gamma): structure_of(column, gamma) for gamma in gammas}
 
 
 def of_pictures(

@@ -7,8 +7,8 @@ than any search resolves. So a fall is counted strictly: the heavier structure o
 """
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -50,6 +50,14 @@ class Fall(NamedTuple):
     by_wide: float
 
 
+class Comparison(NamedTuple):
+    """The lowest intervals of two structures under a motion, and the fall between them."""
+
+    lighter: Lowest
+    heavier: Lowest
+    fall: Fall
+
+
 def lowest_of(
     blocks: Sequence[RockingBlock], motions: Motions, highest: float, wide: float
 ) -> list[Lowest]:
@@ -59,7 +67,7 @@ def lowest_of(
 
 
 def _lowest(intervals: Sequence[FactorInterval], wide: float, searched: float) -> Lowest:
-    ends = [(one.lower[1], one.upper[0] if one.upper else math.inf) for one in intervals]
+    ends = [(part.lower[1], part.upper[0] if part.upper else math.inf) for part in intervals]
     none = (math.inf, math.inf)
     first_wide = next((pair for pair in ends if pair[1] - pair[0] >= wide), none)
     return Lowest(*(ends[0] if ends else none), *first_wide, searched)
@@ -94,7 +102,9 @@ def searched_finely(
     (intervals,) = intervals_of_many(
         [block], [motion], (1.0, last), resolution=GRID, most_impacts=0
     )
-    ends = [(one.lower[1], one.upper[0]) for one in intervals if one.upper and one.upper[1] < last]
+    ends = [
+        (part.lower[1], part.upper[0]) for part in intervals if part.upper and part.upper[1] < last
+    ]
     lower, upper = [*ends, (lowest.lower, lowest.upper)][0]
     return lowest._replace(lower=lower, upper=upper, searched=GRID)
 
@@ -112,14 +122,14 @@ def fall(lighter: Lowest, heavier: Lowest) -> Fall:
     )
 
 
-def strict_fall(
+def compared(
     lighter: RockingBlock,
     heavier: RockingBlock,
     motion: Pulse | Record,
     highest: float,
     wide: float,
-) -> float:
-    """Return the strict fall from a lighter block to a heavier one under a motion; 0 if none.
+) -> Comparison:
+    """Return the lowest intervals of a lighter and a heavier block under a motion, and the fall.
 
     The fine search runs only where a coarse one leaves a fall: most motions cost the coarse one.
     """
@@ -128,10 +138,10 @@ def strict_fall(
         heavy = confirmed(heavier, motion, heavy, highest, wide)
     if fall(light, heavy).strict > 0.0:
         light = searched_finely(lighter, motion, light, highest, wide)
-    return max(0.0, fall(light, heavy).strict)
+    return Comparison(light, heavy, fall(light, heavy))
 
 
-def share_that_stays(
+def strict_falls(
     lobes: Sequence[Lobe],
     lighter: RockingBlock,
     heavier: RockingBlock,
@@ -140,14 +150,22 @@ def share_that_stays(
     draws: int,
     change: float,
     seed: int,
-) -> float:
-    """Return the share of draws in which a motion of lobes remains a strict fall.
+) -> Iterator[float]:
+    """Yield the strict fall of each draw of a motion of lobes.
 
-    In each draw the length and the amplitude of each lobe change by a share (standard deviation).
-    A fall that lives on the equality of its lobes remains in few draws.
+    In each draw each length, amplitude and pause changes by a share (standard deviation).
     """
     random = np.random.default_rng(seed)
     step = STEP / lighter.frequency_parameter
-    motions = [record_of(drawn(lobes, change, random), step) for _ in range(draws)]
-    falls = [strict_fall(lighter, heavier, motion, highest, wide) for motion in motions]
-    return sum(share > 0.0 for share in falls) / draws
+    for _ in range(draws):
+        motion = record_of(drawn(lobes, change, random), step)
+        yield compared(lighter, heavier, motion, highest, wide).fall.strict
+
+
+def share_that_stays(*terms: Any) -> float:
+    """Return the share of draws that remain a strict fall; the terms are those of `strict_falls`.
+
+    A fall that lives on the equality of its lobes remains in few draws.
+    """
+    falls = [*strict_falls(*terms)]
+    return sum(share > 0.0 for share in falls) / len(falls)

@@ -42,9 +42,14 @@ def record_of(lobes: Sequence[Lobe], time_step: float) -> Record:
 
 
 def drawn(lobes: Sequence[Lobe], change: float, random: np.random.Generator) -> list[Lobe]:
-    """Return the lobes with each length and amplitude times 1 + change · N(0, 1)."""
+    """Return the lobes with each length, amplitude and pause times 1 + change · N(0, 1)."""
     factors = 1.0 + change * random.standard_normal((len(lobes), 2))
     return [
-        lobe._replace(length=lobe.length * longer, amplitude=lobe.amplitude * stronger)
+        Lobe(
+            lobe.sign,
+            lobe.length * longer,
+            lobe.amplitude * stronger,
+            lobe.pause and lobe.pause * (1.0 + change * random.standard_normal()),
+        )
         for lobe, (longer, stronger) in zip(lobes, factors, strict=True)
     ]

@@ -4,8 +4,7 @@ A sentence says that one structure is harder to overturn than another. A motion 
 a strict fall (see `falls`), and is an example only if both structures keep their contacts.
 """
 
-import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -13,13 +12,11 @@ import numpy as np
 
 from replication.config import read_yaml
 from steps.beyond.contacts import SIDES, cap_on, row_of
-from steps.shared.falls import Fall, Lowest, confirmed, fall, lowest_of, searched_finely
+from steps.shared.falls import Comparison
 from topheavy import STANDARD_GRAVITY, Column, Record, RockingFrame
 
 SENTENCES = "paper/sentences.yaml"
 READINGS = 3  # amplitudes between the two minima at which contacts are computed
-
-Structure = Column | RockingFrame
 
 
 class Sentence(NamedTuple):
@@ -38,69 +35,36 @@ class Sentence(NamedTuple):
         return [pair for pair in pairs if (pair[0] == 0.0) == (self.weaker == "column")]
 
 
-class Comparison(NamedTuple):
-    """A weaker and a stronger structure under a motion: their lowest intervals, and the fall."""
-
-    weaker: Lowest
-    stronger: Lowest
-    fall: Fall
-
-
 def read_sentences() -> dict[str, Sentence]:
     """Return the sentences by their names."""
     return {row["id"]: Sentence(**row) for row in read_yaml(SENTENCES)}
 
 
-def structure_of(column: Column, gamma: float) -> Structure:
-    """Return the column (γ = 0) or a frame on it."""
-    return RockingFrame(column, gamma) if gamma else column
-
-
-def normalised(record: Record, column: Column) -> Record:
-    """Return a motion with a peak acceleration of g tan α."""
-    return record.scaled(column.uplift_acceleration / record.peak_acceleration)
-
-
-def compared(
-    column: Column, pair: tuple[float, float], motion: Record, spec: Mapping[str, Any]
-) -> Comparison:
-    """Return the comparison of two structures; the fine searches run where a coarse one falls."""
-    blocks = [structure_of(column, gamma).block() for gamma in pair]
-    weaker, stronger = lowest_of(blocks, [motion] * 2, spec["highest"], spec["wide"])
-    terms = spec["highest"], spec["wide"]
-    if fall(weaker, stronger).strict > 0.0:
-        stronger = confirmed(blocks[1], motion, stronger, *terms)
-    if fall(weaker, stronger).strict > 0.0:
-        weaker = searched_finely(blocks[0], motion, weaker, *terms)
-    return Comparison(weaker, stronger, fall(weaker, stronger))
-
-
 def premises(
-    column: Column,
-    pair: tuple[float, float],
+    structures: Sequence[Column | RockingFrame],
     motion: Record,
-    between: tuple[float, float],
+    comparison: Comparison,
     contacts: Mapping[str, Any],
+    height: float,
 ) -> tuple[float, float]:
     """Return the least vertical force over that at rest, and the largest friction, of both.
 
-    At some amplitudes between two minima, up to |θ| = α.
+    At some amplitudes between the two minima, up to |θ| = α. The cap beam of the config is that on
+    columns of a half-height (m).
     """
-    least, friction = math.inf, 0.0
-    for gamma in pair:
-        structure = structure_of(column, gamma)
-        cap = cap_on(structure, contacts, column.half_height)
-        for amplitude in np.linspace(*between, READINGS + 2)[1:-1]:
-            row = row_of(structure, cap, motion.scaled(float(amplitude)))
-            least = min(least, *_known(row, "least_vertical"))
-            friction = max(friction, *_known(row, "friction"))
-    return least, friction
-
-
-def _known(row: Mapping[str, Any], name: str) -> Iterator[float]:
-    """Yield the numbers of a row at base and beam; a column has no beam."""
-    numbers = (row[f"{name}_{side}"] for side in SIDES)
-    return (number for number in numbers if not math.isnan(number))
+    lower, upper = comparison.heavier.wide_lower, comparison.heavier.wide_upper
+    end = min(comparison.lighter.lower, upper, 2.0 * lower)  # both may be infinite
+    amplitudes = np.linspace(lower, end, READINGS + 2)[1:-1]
+    rows = [
+        row_of(structure, cap_on(structure, contacts, height), motion.scaled(float(amplitude)))
+        for structure in structures
+        for amplitude in amplitudes
+    ]
+    least, friction = (
+        np.array([[row[f"{name}_{side}"] for side in SIDES] for row in rows])
+        for name in ("least_vertical", "friction")
+    )
+    return float(np.nanmin(least)), float(np.nanmax(friction))  # a column has no beam: NaN
 
 
 def half_range(motion: Record) -> float:
