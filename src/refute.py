@@ -13,11 +13,10 @@ The sentences are in paper/sentences.yaml, the worst cases in data/worst_found.y
 import argparse
 import datetime
 import math
-import re
 import sys
 import time
 from collections.abc import Mapping
-from itertools import chain
+from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +25,12 @@ import yaml
 
 from replication.config import read_config, read_yaml
 from replication.sections import Paper
-from steps.beyond.contacts import structure_of
-from steps.beyond.worst_found import PLACES, Case, case_of, row_of_case
+from steps.beyond.contacts import frame_name
+from steps.beyond.worst_found import PLACES, case_of, row_of_case
 from steps.guarantee import FIRST, velocity
-from steps.shared.falls import Comparison, compared, strict_falls
+from steps.shared.falls import Comparison, strict_falls
 from steps.shared.lobes import Lobe, drawn, record_of, sine
-from steps.shared.sentences import half_range, premises, read_sentences
+from steps.shared.sentences import Case, half_range, read_sentences
 from topheavy import Column, Record, read_record
 
 CASES, FOUND = "data/worst_found.yaml", Path("results/refute.yaml")
@@ -55,8 +54,9 @@ def lobes_in_words(text: str) -> list[Lobe]:
             length = amplitude = pause = math.nan
         if not (length and 0.0 < amplitude < math.inf and 0.0 <= pause < math.inf):
             raise ValueError(
-                f"lobe {number} is '{part.strip()}'; expected its length in s with the sign of its "
-                "push, its amplitude in g, and the pause before it in s if any: '-0.9 0.3 0.2'"
+                f"lobe {number} is '{part.strip()}', which is no file either; expected its length "
+                "in s with the sign of its push, its amplitude in g, and the pause before it in s "
+                "if any: '-0.9 0.3 0.2'"
             )
         lobes.append(Lobe(math.copysign(1.0, length), abs(length), amplitude, pause))
     return lobes
@@ -64,10 +64,10 @@ def lobes_in_words(text: str) -> list[Lobe]:
 
 def motion_from(text: str) -> Record:
     """Return the motion of a file, or of lobes in words."""
-    if re.match(r"\s*[-+][\d.]", text):
-        lobes = lobes_in_words(text)
-        return record_of(lobes, min(lobe.length for lobe in lobes) / SAMPLES)
-    return read_record(text)
+    if Path(text).is_file():
+        return read_record(text)
+    lobes = lobes_in_words(text)
+    return record_of(lobes, min(lobe.length for lobe in lobes) / SAMPLES)
 
 
 def answer(text: str, config: Mapping[str, Any]) -> list[str]:
@@ -75,53 +75,45 @@ def answer(text: str, config: Mapping[str, Any]) -> list[str]:
     record, spec = motion_from(text), config["spectra"]["cycles"]
     gammas, lines = config["spectra"]["mass_ratios"], []
     columns = [Column(**config["structures"][name]) for name in config["motions"]["structures"]]
+    heights = ", ".join(f"{2.0 * column.half_height:g}" for column in columns)
     for name, sentence in read_sentences().items():
         falls = []
-        for column in columns:
-            motion = record.scaled(column.uplift_acceleration / record.peak_acceleration)
-            for pair in sentence.pairs(gammas):
-                blocks = [structure_of(column, gamma).block() for gamma in pair]
-                comparison = compared(*blocks, motion, spec["highest"], spec["wide"])
-                if comparison.fall.strict > 0.0:
-                    falls.append((comparison, column, pair, motion))
+        for column, pair in product(columns, sentence.pairs(gammas)):
+            unit = column.uplift_acceleration / record.peak_acceleration
+            case = Case(column, *pair, record.scaled(unit))
+            comparison = case.comparison(spec)
+            if comparison.fall.strict > 0.0:
+                falls.append((comparison, unit, case))
         lines.append(f"{name}: {sentence.sentence}")
         if falls:
-            worst = max(falls, key=lambda row: row[0].fall.strict)
-            lines += contradiction(*worst, record, config)
+            lines += contradiction(*max(falls, key=lambda fall: fall[0].fall.strict), config)
             lines.append(f"  and in {len(falls) - 1} other comparisons of these structures")
         else:
             lines.append(
                 f"  not contradicted, up to a peak of {spec['highest']:g} g tan α, for columns of "
-                f"{', '.join(f'{2 * column.half_height:g}' for column in columns)} m and γ of "
-                f"{', '.join(f'{gamma:g}' for gamma in gammas)}"
+                f"{heights} m and γ of {', '.join(f'{gamma:g}' for gamma in gammas)}"
             )
     return lines
 
 
 def contradiction(
-    comparison: Comparison,
-    column: Column,
-    pair: tuple[float, float],
-    motion: Record,
-    record: Record,
-    config: Mapping[str, Any],
+    comparison: Comparison, unit: float, case: Case, config: Mapping[str, Any]
 ) -> list[str]:
-    """Return the lines on the largest fall under a motion: scales, velocities, contacts."""
-    structures = [structure_of(column, gamma) for gamma in pair]
-    start, unit = comparison.heavier.wide_lower, motion.peak_acceleration / record.peak_acceleration
-    height = config["structures"]["temple"]["half_height"]
-    highest, end = config["spectra"]["cycles"]["highest"], comparison.lighter.lower
-    least, friction = premises(structures, motion, comparison, config["contacts"], height)
-    speed, block = start * half_range(motion), structures[1].block()
+    """Return the lines on a fall under a motion times a unit: scales, velocities, contacts."""
+    start, height = comparison.heavier.wide_lower, config["structures"]["temple"]["half_height"]
+    highest = config["spectra"]["cycles"]["highest"]
+    end = min(comparison.lighter.lower, highest)
+    least, friction = case.premises(comparison, config["contacts"], height)
+    speed, block = start * half_range(case.motion), case.blocks()[1]
     above = [f"V_{n} = {velocity(block, n):.2f} m/s" for n in FIRST if speed > velocity(block, n)]
     kept = least > 0.0 and friction <= config["contacts"]["sufficient"]
     return [
-        f"  contradicted by {100 * (1.0 - start / min(end, highest)):.1f} %: columns of "
-        f"{2 * column.half_height:g} m, γ = {pair[1]:g} overturns from {unit * start:.4g} times "
-        f"the motion, γ = {pair[0]:g} from {unit * min(end, highest):.4g}"
-        f"{'' if end < highest else ' at the earliest, where the search ends'}",
+        f"  contradicted by {100 * (1.0 - start / end):.1f} %: with columns of "
+        f"{2 * case.column.half_height:g} m, {frame_name(case.heavier)} overturns from "
+        f"{unit * start:.4g} times the motion; {frame_name(case.lighter)} from {unit * end:.4g}"
+        f"{'' if end < highest else ' or more'}",
         f"  half the range of the ground velocity is {speed:.2f} m/s there, more than "
-        f"{above[0] if above else 'no V_n'} of γ = {pair[1]:g} (overturning before impact n)",
+        f"{above[0] if above else 'no V_n'} of the heavier one (overturning before impact n)",
         f"  contacts: least vertical force {least:.2f} of that at rest, friction at most "
         f"{friction:.2f}: {'an example' if kept else 'no example, since they part or slide'}",
     ]
@@ -163,8 +155,8 @@ def kept_fall(
     It is −1 as soon as it can no longer be more than `most`: few cases cost all draws.
     """
     ends = spec["highest"], spec["wide"]
-    comparison = compared(*case.blocks, case.motion, *ends)
-    others = strict_falls(case.lobes, *case.blocks, *ends, draws, spec["change"], seed)
+    comparison = case.comparison(spec)
+    others = strict_falls(case.lobes, *case.blocks(), *ends, draws, spec["change"], seed)
     falls: list[float] = []
     for fall in chain([comparison.fall.strict], others):
         falls.append(fall if fall > most else -1.0)
@@ -187,8 +179,8 @@ def search(
     random, evaluations = np.random.default_rng(seed), 0
     most, best = 0.0, Entry()
     known = [entry for entry in read_yaml(CASES) if entry["sentence"] == name]
-    begin = time.monotonic()
-    while (share := (time.monotonic() - begin) / (60.0 * minutes)) < 1.0:
+    begin = time.process_time()
+    while (share := (time.process_time() - begin) / (60.0 * minutes)) < 1.0:
         evaluations += 1
         if known:
             entry = known.pop()
@@ -200,9 +192,7 @@ def search(
         case = case_of(entry, height)
         value, comparison = kept_fall(case, most, draws, seed, spec)
         if value > most and comparison.lighter.lower < math.inf:
-            least, friction = premises(
-                case.structures, case.motion, comparison, config["contacts"], height
-            )
+            least, friction = case.premises(comparison, config["contacts"], height)
             if least > 0.0 and friction <= config["contacts"]["sufficient"]:
                 most, fall = value, round(comparison.fall.strict, PLACES)
                 best = {"id": f"{name}_kept" if draws else name, "sentence": name}

@@ -14,10 +14,9 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, run, truth, value
-from steps.shared import plain
+from steps.shared import plain, poses
 from steps.shared.cases import column_of, pulse_on
 from steps.shared.cycles import SHAPE, pair_of_pulses
-from steps.shared.poses import structures as drawn
 from topheavy import (
     Cap,
     Column,
@@ -77,31 +76,23 @@ def of_pictures(
     """Yield minima under the pulses of one period, the pictures, and the four structures."""
     spec, portal, gamma = settings["picture"], settings["portal"], settings["picture"]["mass_ratio"]
     minima = vase.set_index(["structure", "mass_ratio", "shape"]).minimum_overturning
-    pieces = {PORTAL: MonolithicPortal(column, gamma, portal["span"], portal["depth"])}
     omega = 2.0 * math.pi / settings["period"]
-    for shape in settings["shapes"]:
-        pulse, alone = Pulse(shape, 1.0, angular_frequency=omega), minima["column", 0.0, shape]
-        for mass_ratio in (gamma, math.inf):
-            both, ends = (
-                of_mass(column, 0.0, mass_ratio),
-                (alone, minima["frame", mass_ratio, shape]),
-            )
-            yield Case(f"minimum, {shape}", both, pulse, between(*ends))
+    for shape, mass_ratio in product(settings["shapes"], (gamma, math.inf)):
+        pair, pulse = of_mass(column, 0.0, mass_ratio), Pulse(shape, 1.0, angular_frequency=omega)
+        ends = minima["column", 0.0, shape], minima["frame", mass_ratio, shape]
+        yield Case(f"minimum, {shape}", pair, pulse, between(*ends))
     shape = "one-cosine"
-    pulse, ends = (
-        Pulse(shape, 1.0, angular_frequency=omega),
-        [minima[name, gamma, shape] for name in ("frame", PORTAL)],
-    )
-    yield Case(f"portal, {shape}", of_mass(column, gamma) | pieces, pulse, between(*ends))
-    shown = drawn(column, gamma, spec["cap"])
-    yield Case("picture", shown, pulse, spec["amplitudes"])
-    rows = [row for _, row in four_structures.iterrows()]
-    for rivals in pairwise(rows):
-        pair: dict[str, Bearing] = {}
+    pulse = Pulse(shape, 1.0, angular_frequency=omega)
+    pair = of_mass(column, gamma)
+    pair[PORTAL] = MonolithicPortal(column, gamma, portal["span"], portal["depth"])
+    ends = minima["frame", gamma, shape], minima[PORTAL, gamma, shape]
+    yield Case(f"portal, {shape}", pair, pulse, between(*ends))
+    yield Case("picture", poses.structures(column, gamma, spec["cap"]), pulse, spec["amplitudes"])
+    for rivals in pairwise(four_structures.itertuples()):
+        pair = {}
         for row in rivals:
-            of = Column(row.half_width, row.half_height)
-            name = row.structure if not row.mass_ratio else frame_name(row.mass_ratio)
-            pair[name] = RockingFrame(of, row.mass_ratio) if row.mass_ratio else of
+            name = frame_name(row.mass_ratio) if row.mass_ratio else row.structure
+            pair[name] = structure_of(Column(row.half_width, row.half_height), row.mass_ratio)
         ends = (row.minimum_overturning for row in rivals)
         yield Case("four structures", pair, pulse, between(*ends))
 
@@ -113,20 +104,20 @@ def of_spectra(
     settings: dict,
 ) -> Iterator[Case]:
     """Yield the drawn pulse that overturns only the heavier frame, the falls, and two pulses."""
-    at = spectra_histories.iloc[0]
-    column = column_of(at.slenderness_deg)
+    history = spectra_histories.iloc[0]
+    column = column_of(history.slenderness_deg)
     unit = column.uplift_acceleration
-    pulse = pulse_on(column, at["shape"], at.frequency_ratio).scaled(1.0 / unit)
+    pulse = pulse_on(column, history["shape"], history.frequency_ratio).scaled(1.0 / unit)
     gammas = spectra_histories.mass_ratio.unique()
-    amplitudes = [float(at.amplitude_over_uplift * unit)]
+    amplitudes = [float(history.amplitude_over_uplift * unit)]
     yield Case("exception", of_mass(column, *gammas), pulse, amplitudes)
     for _, row in spectra_falls[spectra_falls.stays.notna()].iterrows():
         column = column_of(row.slenderness_deg)
         unit = column.uplift_acceleration
         pulse = pulse_on(column, SHAPE, row.frequency_ratio, cycles=int(row.cycles))
         ends = between(row.heavier_from * unit, row.lighter_from * unit)
-        both = of_mass(column, row.lighter, row.heavier)
-        yield Case(f"{row.cycles:g} cycles", both, pulse.scaled(1.0 / unit), ends)
+        pair = of_mass(column, row.lighter, row.heavier)
+        yield Case(f"{row.cycles:g} cycles", pair, pulse.scaled(1.0 / unit), ends)
     for number, case in enumerate(settings["two_pulses"]["cases"], 1):
         column = column_of(case["slenderness"])
         unit, motion = column.uplift_acceleration, pair_of_pulses(case, settings)
@@ -137,9 +128,9 @@ def of_spectra(
         ]
         last = table.loc[table.wide_minimum.idxmax()]
         for _, row in table[table.mass_ratio > last.mass_ratio].iterrows():
-            both = of_mass(column, last.mass_ratio, row.mass_ratio)
+            pair = of_mass(column, last.mass_ratio, row.mass_ratio)
             ends = between(row.wide_minimum * unit, last.wide_minimum * unit)
-            yield Case(f"{TWO_PULSES} {number}", both, motion.scaled(1.0 / unit), ends)
+            yield Case(f"{TWO_PULSES} {number}", pair, motion.scaled(1.0 / unit), ends)
 
 
 def cap_on(structure: Bearing, settings: dict, height: float) -> Cap | None:
@@ -195,24 +186,20 @@ def part_of_maps(settings: dict, spectra: dict, height: float) -> pd.DataFrame:
     of the area on which only the column overturns, and only the frame.
     """
     random, rows = np.random.default_rng(settings["seed"]), []
-    ratios, amplitudes = spectra["frequency_ratios"], spectra["amplitudes"]
+    axes = [spectra[name] for name in ("frequency_ratios", "amplitudes")]
+    ends = [[axis[end] for axis in axes] for end in ("lowest", "highest")]
     for degrees, shape in product(spectra["slendernesses"], spectra["shapes"]):
         column = column_of(degrees)
-        both = of_mass(column, 0.0, max(spectra["mass_ratios"])).values()
-        cells = random.uniform(
-            (ratios["lowest"], amplitudes["lowest"]),
-            (ratios["highest"], amplitudes["highest"]),
-            (settings["cells"], 2),
-        )
+        cells = random.uniform(*ends, (settings["cells"], 2))
         pulses = [pulse_on(column, shape, *map(float, cell)) for cell in cells]
-        pressed, fell = np.ones(len(pulses), bool), []
-        for structure in both:
-            least, overturned = of_cells(structure, cap_on(structure, settings, height), pulses)
+        pressed, overturned = np.ones(len(pulses), bool), []
+        for structure in of_mass(column, 0.0, max(spectra["mass_ratios"])).values():
+            least, outcomes = of_cells(structure, cap_on(structure, settings, height), pulses)
             pressed &= least > 0.0
-            fell.append(overturned)
-        parts = {"prevented": fell[0] & ~fell[1], "caused": ~fell[0] & fell[1]}
+            overturned.append(outcomes)
+        alone, frame = overturned
         row = {"slenderness_deg": degrees, "shape": shape, "pressed": pressed.mean()}
-        for name, part in parts.items():
+        for name, part in (("prevented", alone & ~frame), ("caused", ~alone & frame)):
             row |= {name: part.mean(), f"{name}_pressed": (part & pressed).mean()}
         rows.append(row)
     return pd.DataFrame(rows)
@@ -224,18 +211,17 @@ def of_cells(
     """Return the least vertical force over that at rest under each pulse, and what overturns."""
     block = structure.block()
     times = [np.linspace(0.0, LATER * pulse.duration, TIMES) for pulse in pulses]
-    motions = [simulate(block, *one, samples=at) for *one, at in zip(pulses, times, strict=True)]
-    theta, rate = (
-        np.array([getattr(one, name) for one in motions]) for name in ("rotation", "velocity")
-    )
-    inside = np.abs(theta) <= block.slenderness
-    last = TIMES - 1 - np.argmax(inside[:, ::-1], axis=1)
+    pairs = [*zip(pulses, times, strict=True)]
+    responses = [simulate(block, pulse, samples=time) for pulse, time in pairs]
+    theta = np.array([response.rotation for response in responses])
+    rate = np.array([response.velocity for response in responses])
+    ground = np.array([pulse.excitation(time) for pulse, time in pairs])
+    last = TIMES - 1 - np.argmax((np.abs(theta) <= block.slenderness)[:, ::-1], axis=1)
     beyond = (np.arange(TIMES) > last[:, None]) | ~(np.abs(theta) < math.pi / 2)
-    ground = np.array([pulse.excitation(at) for pulse, at in zip(pulses, times, strict=True)])
     forces = forces_at(structure, cap, np.where(beyond, 0.0, theta), rate, ground)
     shares = forces.vertical / static_shares(structure)[:, None, None]
     least = np.nanmin(np.where(beyond, np.inf, np.nan_to_num(shares, nan=1.0)), axis=(0, 2))
-    return least, np.array([one.overturned for one in motions])
+    return least, np.array([response.overturned for response in responses])
 
 
 def compute(
@@ -257,8 +243,8 @@ def compute(
     ]
     rows, histories = [], []
     for case in cases:
-        column = next(iter(case.structures.values()))
-        level = getattr(column, "column", column).uplift_acceleration
+        first = next(iter(case.structures.values()))
+        level = getattr(first, "column", first).uplift_acceleration
         for amplitude, (name, structure) in product(case.amplitudes, case.structures.items()):
             cap = cap_on(structure, settings, temple.half_height)
             history = structure, cap, case.motion.scaled(amplitude)

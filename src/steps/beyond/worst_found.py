@@ -6,33 +6,20 @@ searches for a worse one. Both solvers have the same outcomes beside both minima
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import pandas as pd
 
 from replication.config import read_yaml
 from replication.step import check, run, truth
-from steps.beyond.contacts import structure_of
-from steps.shared.falls import GRID, STEP, compared, share_that_stays
+from steps.shared.falls import GRID, STEP, share_that_stays
 from steps.shared.lobes import Lobe, record_of
 from steps.shared.samples import Cell, check_sample
-from steps.shared.sentences import half_range, premises, read_sentences
-from topheavy import Column, Record, RockingBlock, RockingFrame
+from steps.shared.sentences import Case, half_range, read_sentences
+from topheavy import Column
 
 PLACES = 4  # decimals of a fall in data/worst_found.yaml
 ASIDE = 2.0 * GRID  # g tan α, of an end of an interval: there the plain solver repeats outcomes
-
-
-class Case(NamedTuple):
-    """The lobes (s, g) and the motion of a case, its lighter and its heavier structure."""
-
-    lobes: list[Lobe]
-    motion: Record
-    structures: list[Column | RockingFrame]
-
-    @property
-    def blocks(self) -> list[RockingBlock]:
-        return [structure.block() for structure in self.structures]
 
 
 def case_of(entry: Mapping[str, Any], height: float) -> Case:
@@ -47,7 +34,7 @@ def case_of(entry: Mapping[str, Any], height: float) -> Case:
         for length, push, pause in entry["lobes"]
     ]
     gammas = float(entry["lighter"]), float(entry["heavier"])
-    return Case(lobes, record_of(lobes, STEP * time), [structure_of(column, g) for g in gammas])
+    return Case(column, *gammas, record_of(lobes, STEP * time), lobes)
 
 
 def row_of_case(
@@ -58,27 +45,27 @@ def row_of_case(
     height: float,
 ) -> dict[str, Any]:
     """Return a row of the table: the fall by three counts, widths, contacts and draws."""
-    comparison = compared(*case.blocks, case.motion, spec["highest"], spec["wide"])
+    comparison = case.comparison(spec)
     lighter, heavier, fall = comparison
     check(
         round(fall.strict, PLACES) == entry["fall"],
         f"data/worst_found.yaml: {entry['id']} has a fall of {fall.strict:.{PLACES}f}; expected "
         f"{entry['fall']}",
     )
-    least, friction = premises(case.structures, case.motion, comparison, contacts, height)
+    least, friction = case.premises(comparison, contacts, height)
     terms = (spec[name] for name in ("highest", "wide", "draws", "change", "seed"))
     return {
         "id": entry["id"],
         "sentence": entry["sentence"],
         "slenderness_deg": entry["slenderness"],
-        "lighter": float(entry["lighter"]),
+        "lighter": case.lighter,
         "lighter_from": lighter.lower,
         "lighter_width": lighter.upper - lighter.lower,
-        "heavier": float(entry["heavier"]),
+        "heavier": case.heavier,
         "heavier_from": heavier.wide_lower,
         "heavier_width": min(heavier.wide_upper, spec["highest"]) - heavier.wide_lower,
         **fall._asdict(),
-        "stays": share_that_stays(case.lobes, *case.blocks, *terms),
+        "stays": share_that_stays(case.lobes, *case.blocks(), *terms),
         "least_vertical": least,
         "friction": friction,
         "half_range": heavier.wide_lower * half_range(case.motion),
@@ -91,7 +78,7 @@ def row_of_case(
 
 def sides(case: Case, row: Mapping[str, Any]) -> Iterator[Cell]:
     """Yield outcomes beside both minima, which the plain solver repeats."""
-    lighter, heavier = case.blocks
+    lighter, heavier = case.blocks()
     for block, amplitude, overturns in (
         (heavier, row["heavier_from"] + ASIDE, True),
         (heavier, row["heavier_from"] - ASIDE, False),

@@ -11,9 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from replication.config import read_yaml
-from steps.beyond.contacts import SIDES, cap_on, row_of
-from steps.shared.falls import Comparison
-from topheavy import STANDARD_GRAVITY, Column, Record, RockingFrame
+from steps.beyond.contacts import SIDES, cap_on, row_of, structure_of
+from steps.shared.falls import Comparison, compared
+from steps.shared.lobes import Lobe
+from topheavy import STANDARD_GRAVITY, Column, Record, RockingBlock, RockingFrame
 
 SENTENCES = "paper/sentences.yaml"
 READINGS = 3  # amplitudes between the two minima at which contacts are computed
@@ -40,31 +41,49 @@ def read_sentences() -> dict[str, Sentence]:
     return {row["id"]: Sentence(**row) for row in read_yaml(SENTENCES)}
 
 
-def premises(
-    structures: Sequence[Column | RockingFrame],
-    motion: Record,
-    comparison: Comparison,
-    contacts: Mapping[str, Any],
-    height: float,
-) -> tuple[float, float]:
-    """Return the least vertical force over that at rest, and the largest friction, of both.
+class Case(NamedTuple):
+    """Two structures on a column, by γ (0 is the column), under a motion with a peak of g tan α."""
 
-    At some amplitudes between the two minima, up to |θ| = α. The cap beam of the config is that on
-    columns of a half-height (m).
-    """
-    lower, upper = comparison.heavier.wide_lower, comparison.heavier.wide_upper
-    end = min(comparison.lighter.lower, upper, 2.0 * lower)  # both may be infinite
-    amplitudes = np.linspace(lower, end, READINGS + 2)[1:-1]
-    rows = [
-        row_of(structure, cap_on(structure, contacts, height), motion.scaled(float(amplitude)))
-        for structure in structures
-        for amplitude in amplitudes
-    ]
-    least, friction = (
-        np.array([[row[f"{name}_{side}"] for side in SIDES] for row in rows])
-        for name in ("least_vertical", "friction")
-    )
-    return float(np.nanmin(least)), float(np.nanmax(friction))  # a column has no beam: NaN
+    column: Column
+    lighter: float
+    heavier: float
+    motion: Record
+    lobes: Sequence[Lobe] = ()
+
+    def structures(self) -> list[Column | RockingFrame]:
+        """Return the lighter and the heavier structure."""
+        return [structure_of(self.column, gamma) for gamma in (self.lighter, self.heavier)]
+
+    def blocks(self) -> list[RockingBlock]:
+        """Return them as blocks."""
+        return [structure.block() for structure in self.structures()]
+
+    def comparison(self, spec: Mapping[str, Any]) -> Comparison:
+        """Return their lowest intervals that overturn, and the fall."""
+        return compared(*self.blocks(), self.motion, spec["highest"], spec["wide"])
+
+    def premises(
+        self, comparison: Comparison, contacts: Mapping[str, Any], height: float
+    ) -> tuple[float, float]:
+        """Return the least vertical force over that at rest, and the largest friction, of both.
+
+        At some amplitudes between the two minima, up to |θ| = α. The cap beam of the config is that
+        on columns of a half-height (m).
+        """
+        lower, upper = comparison.heavier.wide_lower, comparison.heavier.wide_upper
+        end = min(comparison.lighter.lower, upper, 2.0 * lower)  # both may be infinite
+        rows = [
+            row_of(
+                structure, cap_on(structure, contacts, height), self.motion.scaled(float(factor))
+            )
+            for structure in self.structures()
+            for factor in np.linspace(lower, end, READINGS + 2)[1:-1]
+        ]
+        least, friction = (
+            np.array([[row[f"{name}_{side}"] for side in SIDES] for row in rows])
+            for name in ("least_vertical", "friction")
+        )
+        return float(np.nanmin(least)), float(np.nanmax(friction))  # a column has no beam: NaN
 
 
 def half_range(motion: Record) -> float:
