@@ -30,8 +30,8 @@ def case_of(entry: Mapping[str, Any], height: float) -> Case:
     column = Column(height * math.tan(math.radians(entry["slenderness"])), height)
     time, unit = 1.0 / column.frequency_parameter, column.uplift_acceleration
     lobes = [
-        Lobe(math.copysign(1.0, push), length * time, abs(push) * unit, pause * time)
-        for length, push, pause in entry["lobes"]
+        Lobe(sign, length * time, amplitude * unit, pause * time)
+        for sign, length, amplitude, pause in entry["lobes"]
     ]
     gammas = float(entry["lighter"]), float(entry["heavier"])
     return Case(column, *gammas, record_of(lobes, STEP * time), lobes)
@@ -55,8 +55,7 @@ def row_of_case(
     least, friction = case.premises(comparison, contacts, height)
     terms = (spec[name] for name in ("highest", "wide", "draws", "change", "seed"))
     return {
-        "id": entry["id"],
-        "sentence": entry["sentence"],
+        **{key: entry[key] for key in ("id", "sentence")},
         "slenderness_deg": entry["slenderness"],
         "lighter": case.lighter,
         "lighter_from": lighter.lower,
@@ -70,9 +69,7 @@ def row_of_case(
         "friction": friction,
         "half_range": heavier.wide_lower * half_range(case.motion),
         "lobes": len(case.lobes),
-        "evaluations": entry["evaluations"],
-        "seed": entry["seed"],
-        "date": str(entry["date"]),
+        **{key: entry[key] for key in ("evaluations", "seed", "date")},
     }
 
 
