@@ -35,18 +35,10 @@ def errors(axis, table):
     quoted = table[(table[pulse] == table[pulse].iloc[0]).all(axis=1)]
     for model, (words, dash, face) in MODELS.items():
         line = quoted[quoted.model == model]
-        look = {"color": MODEL if model == "all" else INK, "markerfacecolor": face}
-        size = 5 if face == PAPER else 3  # both are seen where two lines lie on each other
-        axis.plot(
-            line.mass_ratio,
-            100 * line.median_error,
-            marker="o",
-            markersize=size,
-            linestyle=dash,
-            label=words,
-            **look,
-            zorder=3 - (face == PAPER),
-        )
+        look = {"color": MODEL if model == "all" else INK, "marker": "o", "markerfacecolor": face}
+        hollow = face == PAPER  # and larger: seen where two lines lie on each other
+        look |= {"markersize": 5 if hollow else 3, "zorder": 3 - hollow, "linestyle": dash}
+        axis.plot(line.mass_ratio, 100 * line.median_error, label=words, **look)
     whole = quoted[quoted.model == "all"]
     for row in whole.iloc[[0, len(whole) // 2, -1]].itertuples():
         error = 100 * row.median_error

@@ -55,11 +55,6 @@ def draw(break_even, break_even_benefit, config):
     axes[1].set_xlabel("Peak ground velocity (m/s)")
     axes[1].set_ylabel(r"Reduction of the column's $\sqrt{r}$ (%)")
     axes[0].legend(loc="lower right", handletextpad=0.2)
-    letter(
-        axes,
-        [
-            f"Benefit at {config['motions']['velocity']:g} m/s, by $\\sqrt{{r}}$",
-            "Reduction that ends the benefit",
-        ],
-    )
+    benefit = f"Benefit at {config['motions']['velocity']:g} m/s, by $\\sqrt{{r}}$"
+    letter(axes, [benefit, "Reduction that ends the benefit"])
     return figure

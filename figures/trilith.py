@@ -60,7 +60,6 @@ def draw(trilith_map, trilith_thresholds, trilith_starts, trilith_histories):
     figure, (left, right) = sheet(DOUBLE, 54, ncols=2, width_ratios=(1, 1.15))
     plane(left, trilith_map, trilith_thresholds.set_index("quantity"))
     histories(right, trilith_histories, trilith_starts.late_peak_over_alpha.iloc[-1])
-    letter(
-        [left, right], ["Outcome after a smooth start", "The test, after two starts of the table"]
-    )
+    titles = ["Outcome after a smooth start", "The test, after two starts of the table"]
+    letter([left, right], titles)
     return figure
