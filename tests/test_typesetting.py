@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import shutil
 from copy import deepcopy
 from functools import cache
@@ -83,6 +84,16 @@ def test_a_number_that_is_typed_into_a_sentence_is_named_with_it(folder, tmp_pat
     path.write_text(text.replace("\n= Limits", "\nIt takes 12.3~s. Then it stops.\n\n= Limits"))
     with pytest.raises(SystemExit, match=r"12\.3 in: It takes 12\.3 s\.$"):
         typeset(tmp_path, "report")
+
+
+def test_bounds_are_rounded_outward(folder, tmp_path):
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    path = tmp_path / DOCUMENTS["report"]
+    share = 'percent(part(spectra.collapse_slow, "covered"), bound: '  # 2.13 %
+    words = f'\nAt most #{share}"upper"), at least #{share}"lower").\n\n= Limits'
+    path.write_text(path.read_text("utf-8").replace("\n= Limits", words))
+    html = re.sub("<[^>]*>", "", typeset(tmp_path, "report").html)
+    assert "At most 3\xa0%, at least 2\xa0%." in html
 
 
 @pytest.mark.parametrize(
