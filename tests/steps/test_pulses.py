@@ -31,6 +31,7 @@ SPECTRA = CONFIG["spectra"] | {
     "shapes": ["one-cosine"],
     "mass_ratios": [0.0, 1.0, math.inf],
     "frequency_ratios": grid(1.25, 4.25, 13),
+    "finer": {"below": 1.3, "resolution": 0.02},
     "cycles": CONFIG["spectra"]["cycles"] | {"numbers": [3], "frequency_ratios": grid(4.0, 5.0, 2)},
     "two_pulses": {
         "samples": 100,
