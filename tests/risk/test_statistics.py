@@ -268,3 +268,17 @@ def test_second_that_is_stronger_has_less_probability_and_a_gain():
     ends = (pairs.less_low, pairs.less_high)
     assert (ends[0] <= pairs.less).all()
     assert (pairs.less <= ends[1]).all()
+
+
+def test_paired_structures_are_compared_under_the_same_motions():
+    """Motions differ much more than the structures: unpaired, no difference would be seen."""
+    random = np.random.default_rng(5)
+    capacities = np.exp(random.normal(size=(40, 1))) * [1.0, 1.1]
+    _, pairs = tables(capacities)
+    assert pairs.gain_low.item() > 0.0
+    assert pairs.gain_high.item() - pairs.gain_low.item() < 0.3
+    assert (pairs.less_high - pairs.less_low).max() < 0.25
+    apart = capacities.copy()
+    random.shuffle(apart[:, 1])
+    shuffled = tables(apart)[1]
+    assert shuffled.gain_low.item() < 0.0 < shuffled.gain_high.item()
