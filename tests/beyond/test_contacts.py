@@ -62,16 +62,18 @@ def test_row_holds_the_extremes_of_all_contacts_until_alpha_and_at_impacts():
     assert row["friction_beam"] == pytest.approx(
         float(forces.required_friction[2:].max()), abs=1e-4
     )
-    alone = contacts.row_of(COLUMN, None, PULSE)
-    assert math.isnan(alone["least_vertical_beam"])
-    assert 0.0 < alone["least_vertical_base"] < 1.0
+    column = contacts.row_of(COLUMN, None, PULSE)
+    assert math.isnan(column["least_vertical_beam"])
+    assert 0.0 < column["least_vertical_base"] < 1.0
 
 
 def test_forces_of_another_motion_are_noticed(monkeypatch):
     contacts.check_row(FRAME, CAP, PULSE)
     solve = contacts.plain.simulate
     monkeypatch.setattr(
-        contacts.plain, "simulate", lambda one, pulse, **more: solve(one, pulse.scaled(1.1), **more)
+        contacts.plain,
+        "simulate",
+        lambda structure, pulse, **more: solve(structure, pulse.scaled(1.1), **more),
     )
     with pytest.raises(SystemExit, match="vertical forces differ"):
         contacts.check_row(FRAME, CAP, PULSE)

@@ -197,9 +197,9 @@ def part_of_maps(settings: dict, spectra: dict, height: float) -> pd.DataFrame:
             least, outcomes = of_cells(structure, cap_on(structure, settings, height), pulses)
             pressed &= least > 0.0
             overturned.append(outcomes)
-        alone, frame = overturned
+        lighter, heavier = overturned
         row = {"slenderness_deg": degrees, "shape": shape, "pressed": pressed.mean()}
-        for name, part in (("prevented", alone & ~frame), ("caused", ~alone & frame)):
+        for name, part in (("prevented", lighter & ~heavier), ("caused", ~lighter & heavier)):
             row |= {name: part.mean(), f"{name}_pressed": (part & pressed).mean()}
         rows.append(row)
     return pd.DataFrame(rows)
@@ -276,7 +276,7 @@ def findings(contacts: pd.DataFrame, contacts_maps: pd.DataFrame, settings: dict
     quoted, pairs = table[~is_pair], table[is_pair]
     is_open, is_rough = quoted.least <= 0.0, quoted.friction > settings["sufficient"]
     count, whole = settings["cells"] * len(contacts_maps), contacts_maps.mean(numeric_only=True)
-    found = {
+    results = {
         "contacts_stay_pressed": truth(
             not is_open.any(),
             histories=len(quoted),
@@ -295,10 +295,10 @@ def findings(contacts: pd.DataFrame, contacts_maps: pd.DataFrame, settings: dict
     for name, part in (("pressed", 1.0), ("prevented", whole.prevented), ("caused", whole.caused)):
         share = whole[name if name == "pressed" else f"{name}_pressed"] / part
         error = math.sqrt(share * (1.0 - share) / (count * part))
-        found[f"maps_{name}"] = value(share, error, cells=round(count * part))
+        results[f"maps_{name}"] = value(share, error, cells=round(count * part))
     slender = contacts_maps.groupby("slenderness_deg").pressed.mean()
-    found["maps_pressed"] |= {"most_slender": slender.iloc[0], "stockiest": slender.iloc[-1]}
-    return found
+    results["maps_pressed"] |= {"most_slender": slender.iloc[0], "stockiest": slender.iloc[-1]}
+    return results
 
 
 def names_of(table: pd.DataFrame) -> str:
