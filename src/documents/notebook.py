@@ -14,21 +14,13 @@ from replication.job import log_to, write
 
 CELLS = """
 {%- extends "base/display_priority.j2" -%}
-{%- block markdowncell -%}
-{{ cell.source | markdown2html }}
-{%- endblock -%}
-{%- block input -%}
-{{ cell.source | highlight_code(metadata=cell.metadata) }}
-{%- endblock -%}
-{%- block stream -%}
-<pre>{{ output.text | ansi2html }}</pre>
-{%- endblock -%}
+{%- block markdowncell %}{{ cell.source | markdown2html }}{% endblock -%}
+{%- block input %}{{ cell.source | highlight_code(metadata=cell.metadata) }}{% endblock -%}
 {%- block execute_result -%}
-{%- block data_priority scoped -%}{{ super() }}{%- endblock -%}
+{% block data_priority scoped %}{{ super() }}{% endblock %}
 {%- endblock -%}
-{%- block data_text -%}
-<pre>{{ output.data["text/plain"] | ansi2html }}</pre>
-{%- endblock -%}
+{%- block stream %}<pre>{{ output.text | ansi2html }}</pre>{% endblock -%}
+{%- block data_text %}<pre>{{ output.data["text/plain"] | ansi2html }}</pre>{% endblock -%}
 {%- block data_html -%}
 <div class="scroll" tabindex="0">
 {{ output.data["text/html"] | replace("<th></th>", "<td></td>") }}
