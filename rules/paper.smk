@@ -156,7 +156,7 @@ rule spectra_shard:
         kernel="results/kernel.compiled",
     output:
         spectra="results/shards/spectra_{scatteritem}.csv",
-        cycles="results/shards/cycles_{scatteritem}.csv",
+        cycles="results/shards/cycles_{scatteritem}.txt",
     log:
         "results/logs/spectra_{scatteritem}.log",
     priority: 2
@@ -173,7 +173,7 @@ rule spectra_shard:
 rule spectra:
     input:
         shards=gather.spectra("results/shards/spectra_{scatteritem}.csv"),
-        several=gather.spectra("results/shards/cycles_{scatteritem}.csv"),
+        several=gather.spectra("results/shards/cycles_{scatteritem}.txt"),
     output:
         spectra=shown("results/tables/spectra.csv"),
         areas="results/tables/spectra_areas.csv",

@@ -246,7 +246,7 @@ def histories(band: Band) -> pd.DataFrame:
 
 
 def compute(
-    shards: list[pd.DataFrame], several: list[pd.DataFrame], settings: dict, tightened: float
+    shards: list[pd.DataFrame], several: list[str], settings: dict, tightened: float
 ) -> dict[str, Any]:
     """Return the spectra of the frames, the shares of their maps, and one pair of histories.
 
@@ -259,7 +259,8 @@ def compute(
     spectra = Spectra(table, last)
     bands = spectra.bands([*combinations(frames(spectra.gammas), 2)])
     check_sample(spectra, bands, settings["sample"], tightened)
-    minima = pd.concat(several).sort_values([*cycles.PLACE, "mass_ratio"], ignore_index=True)
+    parts = [pd.read_csv(path) for path in several]
+    minima = pd.concat(parts).sort_values([*cycles.PLACE, "mass_ratio"], ignore_index=True)
     return {
         "spectra": table[table.change == FRAME].drop(columns="change"),
         "areas": areas_of(spectra),

@@ -175,10 +175,11 @@ def rows_of(item: Line, intervals: Sequence[FactorInterval]) -> Iterator[dict[st
         }
 
 
-def compute(settings: dict, shard: str) -> dict[str, pd.DataFrame]:
+def compute(settings: dict, shard: str) -> dict[str, Any]:
     """Return the part of a shard, "2-of-8", of the spectra, and of the minima of several cycles.
 
-    The spectra are those of frames, and of columns with the p̂ or the √r of the heaviest.
+    The spectra are those of frames, and of columns with the p̂ or the √r of the heaviest. The minima
+    are a text with all digits, as differences of them are taken.
     """
     structures = [(FRAME, gamma) for gamma in settings["mass_ratios"]]
     structures += [(change, max(settings["mass_ratios"])) for change in CHANGES[1:]]
@@ -189,7 +190,8 @@ def compute(settings: dict, shard: str) -> dict[str, pd.DataFrame]:
         [line(*structure, *place, ratio) for ratio in ratios]
         for structure, *place in labels[number - 1 :: shards]
     ]
-    return {"spectra": solve(spectra, settings), "cycles": cycles.minima(settings, number, shards)}
+    minima = cycles.minima(settings, number, shards)
+    return {"spectra": solve(spectra, settings), "cycles": minima.to_csv(index=False)}
 
 
 if __name__ == "__main__":
