@@ -29,12 +29,12 @@ from steps.shared.spectrum import (
 from topheavy import judge, simulate
 
 COLUMN = 0.0  # γ
-LEAST_RISES = 20  # of the minimum from one γ to the next, looked at again: there a miss would show
-FINER = 20.0  # times: the resolution of the second look
-NEAR = 1e-4, 1e-3  # of a minimum: how close to it half of the sample is; brackets are narrower
-SHOWN, SAMPLES = 3.0, 751  # of the histories that are drawn: lengths of the pulse, and points
+LEAST_RISES = 20  # smallest rises of the minimum with γ: searched again, as a miss would show there
+FINER = 20.0  # ratio of the resolutions of the first and the second search
+NEAR = 1e-4, 1e-3  # relative distances from a minimum between which half of the sample lies
+SHOWN, SAMPLES = 3.0, 751  # length of the drawn histories, over that of the pulse; points
 LARGER = 2.0  # ratio of the frequencies that are compared: a column four times as large
-MANY = 10.0  # times the area of the other cause: chosen after we had seen both
+MANY = 10.0  # ratio of the areas of two causes: chosen after we had seen both
 ONE_CYCLE = "the pulse is a Ricker wavelet, or one cycle of a sine or cosine"
 MINIMUM = f"judged by the minimum overturning acceleration; {ONE_CYCLE}"
 AREAS = ["slenderness_deg", "shape", "change", "mass_ratio", "beside"]
@@ -169,7 +169,7 @@ def areas_of(spectra: Spectra) -> pd.DataFrame:
     """Return the shares of each map on which a structure prevents and causes overturning.
 
     It is compared with the solitary column; the heaviest frame also with its equivalent column. The
-    columns `…_by_two` and `…_by_four` have the shares by a frequency step so many times as wide.
+    columns `…_by_two` and `…_by_four` use every second and every fourth frequency only.
     """
     column, *others = frames(spectra.gammas)
     heaviest = [(change, spectra.gammas[-1], 1.0) for change in CHANGES]

@@ -69,8 +69,8 @@ def compute(settings, structures, shards):
 def row(model, fell, settings):
     """Return probabilities at the stated velocity, and their paired differences.
 
-    `only_frame` are the motions that overturn the frame and not the column, and `changed` the share
-    of those whose outcome for the column a small change of their scale changes.
+    `only_frame` are the motions that overturn the frame and not the column. A small change of
+    scale changes the outcome of the column for the share `changed` of the motions.
     """
     ensemble = Ensemble(fell[..., :1], None, **settings["bootstrap"])
     shares = ensemble.means()[..., 0].T

@@ -23,8 +23,8 @@ PLACE = ["cycles", "slenderness_deg", "frequency_ratio"]
 FOUND = ["lowest_found", "lowest_upper", "wide_minimum", "wide_upper", "searched_step"]
 TOGETHER = 100  # lines that are searched in the same calls of the kernel
 PAIR = "lighter", "heavier"
-ASIDE = 1e-4  # of an end of an interval: where the plain solver judges
-CLOSE = 0.005  # g tan α, of an end of an interval under two pulses: likewise
+ASIDE = 1e-4  # relative distance from the end of an interval at which both solvers judge
+CLOSE = 0.005  # the same distance under two pulses, g tan α
 
 
 def minima(settings: Mapping[str, Any], number: int = 1, shards: int = 1) -> pd.DataFrame:

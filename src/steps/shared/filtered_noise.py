@@ -26,7 +26,7 @@ DAMPING = 0.6
 """ζ of both oscillators."""
 
 RISE, CONSTANT, DURATION, DECAY = 3.0, 10.0, 30.0, 0.25
-"""Of the envelope: how long it rises and is constant, s; the whole, s; its decay, 1/s."""
+"""Times of the envelope, s: its rise, its constant part and its length; its decay, 1/s."""
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ FRAME, SIZE, RESTITUTION = CHANGES = "frame", "size", "restitution"
 """What a cap beam changes of the column: p and √r, p alone (the equivalent column), √r alone."""
 MODES = "without impact", "with impact"
 KEYS = ["change", "mass_ratio", "slenderness_deg", "shape", "frequency_ratio"]
-SAME = 1e-8  # relative to the end of an interval
+SAME = 1e-8  # relative difference of the ends of two equal intervals
 TOGETHER = 400  # lines that are searched in the same calls of the kernel
 
 
@@ -129,11 +129,8 @@ def search_finely(
     lines: Sequence[Line], ends: tuple[float, float], resolution: float, settings: Mapping[str, Any]
 ) -> list[list[FactorInterval]]:
     """Return the intervals of each line, also narrower ones close to uplift and below a minimum."""
-    below, finest, near = (
-        settings["finer"]["below"],
-        settings["finer"]["resolution"],
-        settings["near"],
-    )
+    finer, near = settings["finer"], settings["near"]
+    below, finest = finer["below"], finer["resolution"]
     results = search(lines, ends, resolution, (below, finest))
 
     def add(

@@ -40,7 +40,7 @@ class Question(NamedTuple):
 
     blocks: list[RockingBlock]
     velocities: NDArray[np.float64]
-    of_peaks: bool = False  # and not of what overturns
+    of_peaks: bool = False  # asks for peak rotations instead of outcomes
 
     def factors(self, record: Record) -> NDArray[np.float64]:
         """Return the factors that scale a motion to the velocities."""

@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     import xarray
 
 FACTORS_PER_CALL, MIN_FACTORS_PER_CALL = 512, 32
-"""Factors of all grids in one call of the kernel, and the least of one grid; from the lowest up."""
+"""Numbers of factors in one call of the kernel: of all grids together, and at least of each."""
 
 STEP_ABOVE = 0.1
-"""Of the distance from the minimum: steps by which the end of its interval is sought."""
+"""Step by which the end of an interval is sought, relative to the distance from the minimum."""
 
 RESOLUTION = 0.02
 """Normalised by the uplift acceleration: a spectrum misses no wider interval that overturns."""

@@ -20,7 +20,7 @@ def _sums(outcomes: Array, resamples: int, seed: int | Sequence[int]) -> Array:
     """Return the sums of outcomes over the motions, and over those of each resample.
 
     Of a resample, a binomial number of motions falls on each block; in a block, all motions are
-    equally likely. Sums of yes and no are whole numbers, so that equal counts are equal.
+    equally likely. Sums of outcomes are whole numbers, so that equal counts stay equal.
     """
     random, unplaced = np.random.default_rng(seed), np.full(resamples, len(outcomes))
     total = np.zeros((1 + resamples, *outcomes.shape[1:]))
