@@ -417,9 +417,9 @@ MAKE = {"column": lambda b, h, gamma: column(b, h), "fixed mass": fixed, "frame"
 SENTENCES = {  # README has each if this file computes that it is true; # is a number
     "size": "R̂ is at most # times R",
     "trilith": "p̂ = # rad/s, as printed",
-    "allen": "wrong, mostly too small, by #, # and # % for γ = 0.5, 2 and 10",
+    "allen": "wrong, mostly too small, by # % for γ = 0.5",
     "minima": "one-cosine pulse of 1.5 s overturn from # g alone, from # g under a very heavy beam",
-    "gain": r"by # to # % \(columns of 0.8 m\), # to # % \(6 m\) and # to # % \(12 m\)",
+    "gain": r"by # to # % \(columns of 6 m\)",
     "velocity": r"every range of ±# cm/s \(column\) or ±# cm/s \(very heavy beam\)",
     "inertia": r"multiplies the inertia by 1 \+ 3γ and the restoring moment only by 1 \+ 2γ",
     "slower": "so that the frame is slower",
@@ -432,23 +432,24 @@ SENTENCES = {  # README has each if this file computes that it is true; # is a n
 }
 ABSTRACT = {  # sentences that `make check` looks for; this file computes that each is true
     "size": "equal slenderness and up to # times the size, with a lower coefficient of restitution",
-    "velocity": r"rises from # cm/s \(the column\) to # cm/s \(a very heavy beam\)",
+    "velocity": r"rises from # cm/s \(column\) to # cm/s \(very heavy beam\)",
     "models": "under each of ten models, a beam as heavy as both columns raises the",
     "raises": "median overturning velocity of such columns, by # to # %",
     "uplift": r"tested trilith agree with ours \(p̂=# rad/s\); it was shaken below uplift",
-    "small": "errs in the peak rotation by a median of # % for γ=# and # % for γ=#",
+    "small": "Allen et al. mostly underestimates rotations, the more the lighter the beam",
 }
 NOT_RECOMPUTED = {  # sentences of README and abstract, and the rules that compute them
-    "alone is # % lower(?: than theory says)?, as measured on concrete, # of # per": "break_even",
-    "at an acceleration # % below that of the frame with γ=#, and in # of # draws": "worst_found",
-    "with lobes changed by # % it still does": "worst_found, from its draws",
-    "at # % less acceleration than its column": "worst_found",
-    "beam at # % less than one with a lighter beam": "worst_found",
-    "With pulses changed by # %, # and # of # still do": "worst_found, from its draws",
+    "alone is # % lower, as measured on concrete, # of # per": "break_even",
+    "keeps # % less velocity at impacts than theory says, as measured on concrete, # of #": "same",
+    "at # % less acceleration than (?:its|the) column": "worst_found",
+    "at # % less than a frame with a light beam": "worst_found",
+    "ith pulses changed by # %, #(?: and #)? of # still do": "worst_found, from its draws",
+    "# claims # are confirmed, # hold on a condition, # is supported, # holds by": "make check",
+    "definition, # were not tested": "make check",
     "shares of motions that overturn, read for the gains": "motions",
     "two square columns in line; light beams and friction": "engine, friction",
 }
-INPUTS = r"6 m × 1 m|6 m by 1 m|6 ?g|\(6 m|ω = 5 p|1 \+ [23]γ|Fig\. 1|Eqs?\. \(\d+\)( to \(\d+\))?"
+INPUTS = r"6 m × 1 m|6 m by 1 m|6 ?g|1 \+ [23]γ|Fig\. 1|Eqs?\. \(\d+\)( to \(\d+\))?"
 NUMBER = r"(\d+(?:\.\d+)?)"
 departed = []
 
@@ -603,9 +604,9 @@ def allen():
         compare(f"Allen et al., γ = {gamma:g}: median error", row["median_error"], medians[gamma])
         compare("   peaks too small", row["too_small"], float((np.array(errors) < 0).sum()))
         small.append(np.nanmedian(errors) < 0)
-    compare_readme("allen", [100 * medians[gamma] for gamma in (0.5, 2.0, 10.0)])
+    compare_readme("allen", [100 * medians[0.5]])
     compare_readme("small", holds=all(small))
-    compare_abstract("small", medians[0.5] > medians[2.0] > medians[10.0])
+    compare_abstract("small", all(small) and medians[0.5] > medians[2.0] > medians[10.0])
 
 
 def histories():
@@ -808,7 +809,7 @@ def gains():
         if row["mass_ratio"] == 1:
             equal[row["structure"]].append(100 * (ratio - 1))
     compare_all("gain in the median velocity (shares: from table)", *np.transpose(pairs))
-    compare_readme("gain", [end(part) for part in equal.values() for end in (min, max)])
+    compare_readme("gain", [end(equal["temple"]) for end in (min, max)])
     compare_readme("raises", holds=min(map(min, equal.values())) > 0)
     compare_readme("models", holds=len(equal["temple"]) == 10)
     compare_abstract("raises", min(equal["temple"]) > 0)

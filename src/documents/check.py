@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from documents.stated import misstated, unsaid
+from documents.stated import miscounted, misstated, unsaid
 from replication.claims import read_claims
 from replication.config import components, read_config, read_yaml
 from replication.sections import Paper
@@ -138,6 +138,7 @@ def faults(results: dict[str, dict[str, Any]]) -> Iterator[str]:
     yield from of_another_run()
     yield from unexpected(rows)
     yield from misstated(results)
+    yield from miscounted(rows, Path("README.md").read_text("utf-8"))
     yield from rewritten(rows, results)
 
 

@@ -3,7 +3,8 @@
 import re
 import tomllib
 import unicodedata
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from html import unescape
 from pathlib import Path
@@ -38,6 +39,18 @@ def misstated(results: Mapping[str, Any]) -> Iterator[str]:
         text = Path(path).read_text("utf-8").partition("The topheavy developers\n")[2]
         if sha256(text.encode()).hexdigest() != digest:
             yield f"{path}: another text of the licence: git checkout {path}"
+
+
+def miscounted(claims: Sequence[Mapping[str, Any]], text: str) -> Iterator[str]:
+    """Yield the sentence with the counts of verdicts on the paper's claims, if a text lacks it."""
+    count = Counter(claim["verdict"] for claim in claims if claim["part"] == "paper")
+    sentence = (
+        f"[{count.total()} claims](docs/verdicts.md) {count['confirmed']} are confirmed, "
+        f"{count['qualified']} hold on a condition, {count['supported']} is supported, "
+        f"{count['by definition']} holds by definition, {count['not tested']} were not tested."
+    )
+    if sentence not in text:
+        yield f"README.md has other counts of verdicts than the claims: {sentence}"
 
 
 def unsaid(html: str) -> Iterator[str]:
