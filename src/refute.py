@@ -30,8 +30,8 @@ from steps.beyond.contacts import frame_name
 from steps.beyond.worst_found import PLACES, case_of, row_of_case
 from steps.guarantee import FIRST, velocity
 from steps.shared.falls import Comparison, strict_falls
-from steps.shared.lobes import Lobe, drawn, record_of, sine
-from steps.shared.sentences import Case, half_range, read_sentences
+from steps.shared.lobes import Lobe, drawn, half_range, record_of, sine
+from steps.shared.sentences import Case, read_sentences
 from topheavy import Column, Record, read_record
 
 CASES, FOUND = "data/worst_found.yaml", Path("results/refute.yaml")

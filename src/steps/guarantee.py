@@ -22,7 +22,7 @@ from scipy.optimize import brentq
 
 from replication.step import check, run, truth, value
 from steps.shared.cases import bisected, column_of, lowered
-from steps.shared.sentences import half_range
+from steps.shared.lobes import half_range
 from topheavy import (
     STANDARD_GRAVITY,
     Column,

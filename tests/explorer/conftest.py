@@ -95,11 +95,19 @@ class Page(Browser):
         self.wait("!document.getElementById('reading').textContent")
         return self.do("document.getElementById('record-error').textContent")
 
-    def press(self, key, code):
+    def choose(self, path, does):
+        """Do what opens the browser's dialog of files, and choose one in it."""
+        self.ask("Page.setInterceptFileChooserDialog", enabled=True)
+        node = self.after(does, "Page.fileChooserOpened")["backendNodeId"]
+        self.ask("DOM.setFileInputFiles", backendNodeId=node, files=[str(path)])
+        self.ask("Page.setInterceptFileChooserDialog", enabled=False)
+
+    def press(self, key, code, text=""):
         """Press a key of the keyboard, and let it go."""
         stroke = {"key": key, "code": key, "windowsVirtualKeyCode": code}
-        for kind in ("rawKeyDown", "keyUp"):
-            self.ask("Input.dispatchKeyEvent", type=kind, **stroke)
+        down = {"type": "keyDown", "text": text} if text else {"type": "rawKeyDown"}
+        self.ask("Input.dispatchKeyEvent", **down, **stroke)
+        self.ask("Input.dispatchKeyEvent", type="keyUp", **stroke)
 
 
 @pytest.fixture(scope="session")

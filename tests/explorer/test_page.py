@@ -100,6 +100,44 @@ def test_every_control_has_a_name_and_is_reached_by_the_keyboard(browser):
     assert all(reached)
 
 
+def reach(browser, is_there):
+    """Press the tabulator until the focus is where a condition on `at` holds."""
+    for _ in range(80):
+        browser.press("Tab", 9)
+        if browser.do(f"(at => !!({is_there}))(document.activeElement)"):
+            return
+    raise AssertionError(f"no Tab reaches {is_there}")
+
+
+def test_everything_is_done_with_the_keyboard_only(browser, tmp_path, square):
+    browser.open()
+    browser.do("document.activeElement.blur()")
+    reach(browser, "at.closest('#cases') && at.previousElementSibling")
+    browser.press("Enter", 13, "\r")
+    assert browser.do("CASES.indexOf(encode(state))") == 1
+    browser.settle()
+    reach(browser, "at.id === 'shape'")
+    browser.press("End", 35)
+    assert browser.do("state.shape") == "record"
+    path = tmp_path / "mine.csv"
+    path.write_text(square(0.3), encoding="utf-8")
+    reach(browser, "at.textContent.startsWith('Open a record')")
+    browser.choose(path, lambda: browser.press("Enter", 13, "\r"))
+    browser.wait("state.record === 'mine'")
+    browser.settle()
+    reach(browser, "at.id === 'spectrum'")
+    before = browser.do("planeOf(state, fileOf(state)).here")
+    for key, code in (("ArrowUp", 38), ("ArrowRight", 39), ("ArrowRight", 39), ("ArrowLeft", 37)):
+        browser.press(key, code)
+    after = browser.do("planeOf(state, fileOf(state)).here")
+    assert after["y"] / before["y"] == pytest.approx((12 / 0.93) ** (1 / 36), rel=1e-3)
+    assert after["x"] / before["x"] == pytest.approx(40 ** (1 / 48), rel=1e-3)
+    reach(browser, "at.tagName === 'SUMMARY'")
+    browser.press("Enter", 13, "\r")
+    assert browser.do("document.activeElement.parentElement.open") is True
+    assert browser.errors == []
+
+
 # Address and input -------------------------------------------------------------------------------
 
 

@@ -13,9 +13,9 @@ import pandas as pd
 from replication.config import read_yaml
 from replication.step import check, run, truth
 from steps.shared.falls import GRID, STEP, share_that_stays
-from steps.shared.lobes import Lobe, record_of
+from steps.shared.lobes import Lobe, half_range, record_of
 from steps.shared.samples import Cell, check_sample
-from steps.shared.sentences import Case, half_range, read_sentences
+from steps.shared.sentences import Case, read_sentences
 from topheavy import Column
 
 PLACES = 4  # decimals of a fall in data/worst_found.yaml

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from topheavy import Record
+from topheavy import STANDARD_GRAVITY, Record
 
 
 class Lobe(NamedTuple):
@@ -53,3 +53,10 @@ def drawn(lobes: Sequence[Lobe], change: float, random: np.random.Generator) -> 
         )
         for lobe, (longer, stronger) in zip(lobes, factors, strict=True)
     ]
+
+
+def half_range(motion: Record) -> float:
+    """Return half the range of the ground velocity, m/s."""
+    steps = 0.5 * (motion.acceleration[1:] + motion.acceleration[:-1]) * motion.time_step
+    speeds = STANDARD_GRAVITY * np.append(0.0, np.cumsum(steps))
+    return float(np.ptp(speeds)) / 2.0

@@ -14,7 +14,7 @@ from replication.config import read_yaml
 from steps.beyond.contacts import SIDES, cap_on, row_of, structure_of
 from steps.shared.falls import Comparison, compared
 from steps.shared.lobes import Lobe
-from topheavy import STANDARD_GRAVITY, Column, Record, RockingBlock, RockingFrame
+from topheavy import Column, Record, RockingBlock, RockingFrame
 
 SENTENCES = "paper/sentences.yaml"
 READINGS = 3  # amplitudes between the two minima at which contacts are computed
@@ -84,10 +84,3 @@ class Case(NamedTuple):
             for name in ("least_vertical", "friction")
         )
         return float(np.nanmin(least)), float(np.nanmax(friction))  # a column has no beam: NaN
-
-
-def half_range(motion: Record) -> float:
-    """Return half the range of the ground velocity, m/s."""
-    steps = 0.5 * (motion.acceleration[1:] + motion.acceleration[:-1]) * motion.time_step
-    speeds = STANDARD_GRAVITY * np.append(0.0, np.cumsum(steps))
-    return float(np.ptp(speeds)) / 2.0
