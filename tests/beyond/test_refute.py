@@ -10,7 +10,7 @@ import yaml
 import refute
 from replication.config import read_yaml
 from steps.beyond import worst_found
-from steps.shared import sentences
+from steps.shared import lobes, sentences
 from tests.cases import COLUMN, CONFIG
 from topheavy import Record
 
@@ -36,9 +36,7 @@ def test_lobes_in_words_are_signed_and_may_have_a_pause():
 
 
 def test_half_the_range_of_the_velocity_is_that_of_its_integral():
-    assert sentences.half_range(Record(0.1, [0.0, 1.0, -1.0, 0.0])) == pytest.approx(
-        0.5 * 0.981 * 0.5
-    )
+    assert lobes.half_range(Record(0.1, [0.0, 1.0, -1.0, 0.0])) == pytest.approx(0.5 * 0.981 * 0.5)
 
 
 def test_a_case_keeps_its_fall_and_another_value_stops_the_step():
