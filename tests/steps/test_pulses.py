@@ -165,7 +165,7 @@ def test_minimum_falls_under_three_cycles_of_a_sine(ratio, known):
     fell = as_written({"fell": cycles.falls(table, settings)})["fell"]
     result = cycles.finding(table, fell, settings)
     assert broken(result) == {"cycles_rise_with_mass"}
-    assert findings_text(result, cycles.finding)  # which an infinite γ stops
+    assert findings_text(result, cycles.finding)  # raises where a number is infinite
     light, heavy = known[gammas[1]], known[gammas[2]]
     assert result["cycles_rise_with_mass"]["fall_3"] == pytest.approx(1.0 - heavy / light, abs=3e-4)
     assert 0.0 <= result["cycles_rise_with_mass"]["stays_3"] <= 1.0
@@ -360,7 +360,7 @@ def test_quoted_minimum_is_between_proven_outcomes(gamma):
 
 @GAMMAS
 def test_proofs_have_the_outcomes_of_the_solver(gamma):
-    for amplitude in (0.1, 0.25, 0.5, 1.0):  # from below uplift, at 1/6 g
+    for amplitude in (0.1, 0.25, 0.5, 1.0):  # g; the column uplifts at 1/6 g
         for period in (0.5, 1.5, 3.0):
             pulse = th.Pulse("one-cosine", amplitude, period=period)
             fell = th.judge(th.RockingFrame(COLUMN, gamma), pulse).overturned
