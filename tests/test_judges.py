@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from documents import check, publish
-from documents.stated import misstated
+from documents.stated import headlines, miscounted, misstated
 from replication.sources import checksums
 from replication.verdicts import unexpected
 from tests.cases import ROOT, published
@@ -106,6 +106,23 @@ def test_what_other_files_state_is_what_results_records_and_files_say(path, old,
     assert old in text
     Path(path).write_text(text.replace(old, new, 1), "utf-8")
     assert any(path in line for line in misstated(published()))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("77 are confirmed", "78 are confirmed", "other counts of verdicts"),
+        ("Until the first impact", "Until the last impact", "'Until the first impact"),
+        ("contacts stay pressed", "contacts open", "'contacts stay pressed"),
+    ],
+)
+def test_readme_says_of_claims_what_their_verdicts_are(old, new, named):
+    claims, text = check.published(published()), (ROOT / "README.md").read_text("utf-8")
+    assert not [*miscounted(claims, text), *headlines(claims, "README.md", text)]
+    assert old in text
+    changed = text.replace(old, new)
+    lines = [*miscounted(claims, changed), *headlines(claims, "README.md", changed)]
+    assert [named in line for line in lines] == [True]
 
 
 def test_file_without_checksum_and_checksum_without_file_are_named(tree):

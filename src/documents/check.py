@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from documents.stated import miscounted, misstated, unsaid
+from documents.stated import headlines, miscounted, misstated, unsaid
 from replication.claims import read_claims
 from replication.config import components, read_config, read_yaml
 from replication.sections import Paper
@@ -120,7 +120,7 @@ def rewritten(
         with tempfile.TemporaryDirectory() as folder:
             documents = remade.remade(Path(folder), config, read("rules"), results, rows, REFERENCE)
         contents |= {name: documents[name] for name in wanted}
-        yield from unsaid(documents["report.html"])
+        yield from unsaid(documents["report.html"], rows)
     for name, content in contents.items():
         lines = (content.encode() if isinstance(content, str) else content).split(b"\n")
         shown = (DOCS / name).read_bytes().split(b"\n")
@@ -137,7 +137,9 @@ def faults(results: dict[str, dict[str, Any]]) -> Iterator[str]:
     yield from of_another_run()
     yield from unexpected(rows)
     yield from misstated(results)
-    yield from miscounted(rows, Path("README.md").read_text("utf-8"))
+    readme = Path("README.md").read_text("utf-8")
+    yield from miscounted(rows, readme)
+    yield from headlines(rows, "README.md", readme)
     yield from rewritten(rows, results)
 
 

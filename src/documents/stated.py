@@ -19,6 +19,16 @@ LICENCES = {  # texts below the line of the holder, and their SHA-256
     "LICENSE": "37dbbcd58d8e438706b6b0ebd64c7e1f19223e1adccaa438b90e8cf937a53eab",
     "docs/LICENSE-CC-BY": "a5349a209822149c2b06a142dd88e3630c4765310260fc9d09928cac75552be9",
 }
+HEADLINES = {  # words of README and abstract, with the claim and the verdict on which they rest
+    "Until the first impact, yes, for every": ("heavier_rotates_less_until_an_impact", "confirmed"),
+    "without an impact, it so overturns|without an impact, so it does the lighter": (
+        "heavier_rotates_less_until_an_impact",
+        "confirmed",
+    ),
+    "After an impact, usually": ("heavier_is_more_stable_by_the_probability", "qualified"),
+    "Not always": ("heavier_can_overturn_alone", "confirmed"),
+    "contacts stay pressed|contacts neither slide nor part": ("contacts_stay_pressed", "confirmed"),
+}
 DOI = re.compile(r"10\.\d{4}/[^\s\"}]*\.\d{7}")
 
 
@@ -53,11 +63,21 @@ def miscounted(claims: Sequence[Mapping[str, Any]], text: str) -> Iterator[str]:
         yield f"README.md has other counts of verdicts than the claims: {sentence}"
 
 
-def unsaid(html: str) -> Iterator[str]:
-    """Yield what src/audit.py computes and the abstract does not say, and numbers beside it."""
+def headlines(claims: Sequence[Mapping[str, Any]], place: str, text: str) -> Iterator[str]:
+    """Yield each of the headlines that a text lacks, or has against the verdict on its claim."""
+    verdicts = {claim["id"]: claim["verdict"] for claim in claims}
+    plain = " ".join(text.replace("*", "").split())
+    for words, (claim, verdict) in HEADLINES.items():
+        if bool(re.search(words, plain)) != (verdicts[claim] == verdict):
+            yield f"{place}: '{words}' has to be there exactly if {claim} is {verdict}"
+
+
+def unsaid(html: str, claims: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """Yield headlines and sentences of src/audit.py that the abstract lacks, and other numbers."""
     abstract = re.search('(?s)<div class="abstract".*?</div>', html)[0]
     plain = unicodedata.normalize("NFKC", unescape(re.sub("<[^>]*>", "", abstract)))
     text = " ".join(plain.split())
+    yield from headlines(claims, "paper/report.typ", text)
     for sentence in ABSTRACT.values():
         if not re.search(sentence.replace("#", NUMBER), text):
             yield f"paper/report.typ: the abstract does not say what src/audit.py has: {sentence}"
