@@ -76,9 +76,7 @@ def test_an_old_result_answers_neither_for_another_record_nor_after_an_error(bri
     for _ in range(2):  # the second time, the picture is gone and the old report is there
         code, output = snakemake(copy)
         assert code == 1
-        assert re.search(
-            "^config.yaml: column: .*unexpected keyword argument 'wide'$", output, re.M
-        )
+        assert re.search("^config.yaml: column: .*unexpected keyword argument 'wide'", output, re.M)
     config.write_text(text.replace("levels:", "level:"), "utf-8")
     code, output = snakemake(copy)
     assert code == 1
