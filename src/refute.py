@@ -107,9 +107,7 @@ def contradiction(
     least, friction = case.premises(comparison, config["contacts"], height)
     speed, block = start * half_range(case.motion), case.blocks()[1]
     above = [f"V_{n} = {velocity(block, n):.2f} m/s" for n in FIRST if speed > velocity(block, n)]
-    fault = (
-        "part" if least <= 0.0 else "slide" if friction > config["contacts"]["sufficient"] else ""
-    )
+    fault = broken(least, friction, config)
     return [
         f"  contradicted by {100 * (1.0 - start / end):.1f} %: with columns of "
         f"{2 * case.column.half_height:g} m, {frame_name(case.heavier)} overturns from "
@@ -120,6 +118,13 @@ def contradiction(
         f"  contacts: least vertical force {least:.2f} of that at rest, friction at most "
         f"{friction:.2f}: {f'no example, since they {fault}' if fault else 'an example'}",
     ]
+
+
+def broken(least: float, friction: float, config: Mapping[str, Any]) -> str:
+    """Return what contacts do against the premises: part, slide, or nothing."""
+    if not least > 0.0:
+        return "part"
+    return "slide" if friction > config["contacts"]["sufficient"] else ""
 
 
 # The search ---------------------------------------------------------------------------------------
@@ -195,7 +200,7 @@ def search(
         value, comparison = kept_fall(case, most, draws, seed, spec)
         if value > most and comparison.lighter.lower < math.inf:
             least, friction = case.premises(comparison, config["contacts"], height)
-            if least > 0.0 and friction <= config["contacts"]["sufficient"]:
+            if not broken(least, friction, config):
                 most, fall = value, round(comparison.fall.strict, PLACES)
                 best = {"id": f"{name}_kept" if draws else name, "sentence": name}
                 best |= {key: entry[key] for key in ("slenderness", "lighter", "heavier")}

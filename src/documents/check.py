@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from documents.stated import headlines, miscounted, misstated, unsaid
+from documents.stated import misstated, unsaid
 from replication.claims import read_claims
 from replication.config import components, read_config, read_yaml
 from replication.sections import Paper
@@ -136,10 +136,7 @@ def faults(results: dict[str, dict[str, Any]]) -> Iterator[str]:
     yield from unsealed()
     yield from of_another_run()
     yield from unexpected(rows)
-    yield from misstated(results)
-    readme = Path("README.md").read_text("utf-8")
-    yield from miscounted(rows, readme)
-    yield from headlines(rows, "README.md", readme)
+    yield from misstated(results, rows)
     yield from rewritten(rows, results)
 
 

@@ -32,9 +32,12 @@ HEADLINES = {  # words of README and abstract, with the claim and the verdict on
 DOI = re.compile(r"10\.\d{4}/[^\s\"}]*\.\d{7}")
 
 
-def misstated(results: Mapping[str, Any]) -> Iterator[str]:
-    """Yield each statement that is not what findings, records or other files say."""
-    yield from links(Path("README.md").read_text("utf-8"), results)
+def misstated(results: Mapping[str, Any], claims: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """Yield each statement that is not what findings, claims, records or other files say."""
+    readme = Path("README.md").read_text("utf-8")
+    yield from links(readme, results)
+    yield from miscounted(claims, readme)
+    yield from headlines(claims, "README.md", readme)
     yield from records(Path("data/records"))
     citation = read_yaml("CITATION.cff")
     project = tomllib.loads(Path("pyproject.toml").read_text("utf-8"))["project"]

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from replication.step import geometric, run
 from steps.shared import filtered_noise, synthetic
+from steps.shared.cases import lowered
 from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn, Record, RockingBlock, RockingFrame
 from topheavy.kernel.taylor import OUTCOME, PEAK
 from topheavy.outcomes.search import cases_of, outcomes_of_factors
@@ -131,10 +132,7 @@ def restitution_question(settings: Settings, break_even: Settings, column: Colum
     frame = RockingFrame(column, settings["mass_ratio"])
     shares = [(column.block(), share) for share in reductions(break_even)]
     shares += [(frame.block(), share) for share in [0.0, *break_even["lowered"]]]
-    blocks = [
-        structure.with_restitution((1.0 - share) * structure.restitution)
-        for structure, share in shares
-    ]
+    blocks = [lowered(structure, share) for structure, share in shares]
     for structure in (RockingFrame(column, 0.0), frame):
         blocks.append(structure.block(restitution_within(structure, break_even["contact"])))
     return Question(blocks, np.array(break_even["velocities"]))
