@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.patches import Arc, Polygon
 from palette import CAP, FORCE, GREY, INK, STONE
 
-from replication.drawing import DOUBLE, letter, note, sheet
+from replication.drawing import SINGLE, letter, note, sheet
 from topheavy import STANDARD_GRAVITY, Column, RockingFrame
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
 
@@ -19,7 +19,7 @@ UP, RIGHT = 1.0, 5.0  # m in the drawing for a vertical and a horizontal force o
 SET_OFF = 0.14  # m, between the cap and what is drawn beside it
 AXES = (-SPAN / 2, SPAN / 2)
 LABELS = {  # text of a force, and its place beside the free end of the arrow, points
-    "F_x1": ("$F_{x1}$", (-15, -6)),
+    "F_x1": ("$F_{x1}$", (-12, -6)),
     "F_x2": ("$F_{x2}$", (9, 0)),
     "F_z1": ("$F_{z1}$", (0, -6)),
     "F_z2": ("$F_{z2}$", (0, -6)),
@@ -141,7 +141,7 @@ def forces(axis, cap, columns):
 
 
 def draw():
-    figure, (left, right) = sheet(DOUBLE, 54, ncols=2)
+    figure, (left, right) = sheet(1.6 * SINGLE, 50, ncols=2)  # printed in one column
     at_rest, moved = outlines(0.0), outlines(THETA)
     rotation(left, at_rest, moved)
     forces(right, moved[0], moved[1:])
