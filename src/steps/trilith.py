@@ -153,9 +153,7 @@ def compute(settings, structures, solver):
     }
 
 
-def findings(
-    trilith_numbers, trilith_thresholds, trilith_starts, trilith_map, settings, structures
-):
+def findings(trilith_numbers, trilith_thresholds, trilith_starts, settings, structures):
     column, printed = structures["trilith"], settings["printed"]
     results = {
         row.quantity: value(row.value, DIGITS * row.value, row.unit)
@@ -182,10 +180,8 @@ def findings(
     high = trilith_starts.share_of_speed[trilith_starts.outcome == "rocking"].min()
     rests = rest.outcome == "no uplift" and rest.peak_over_alpha == 0.0
     amplitude = trilith_thresholds.set_index("quantity").loc["amplitude"]
-    uplifted = trilith_map.outcome[trilith_map.outcome != "no uplift"]
     overshoot = amplitude.to_lift / amplitude.tested - 1.0
     results["overshoot_to_uplift"] = value(overshoot, ASIDE)
-    results["share_that_rocks_on"] = value((uplifted == "rocking").mean(), 0.0)
     results["no_pure_rocking"] = truth(rests)
     results["steady_rotation_over_alpha"] = value(abrupt.late_peak_over_alpha, AGREE)
     if low < high:  # slower starts come to rest, and faster ones keep rocking
