@@ -30,7 +30,6 @@ from topheavy.forces.members import (
 )
 
 CAP, WIDE = th.Cap(span=3.1, half_depth=0.35), th.Cap(span=20.0, half_depth=0.25)
-ON_BOTH = pytest.mark.parametrize("side", SIDES, ids=lambda side: side.label)
 NEARLY = 1e7  # γ in place of ∞, for columns of 1 kg
 
 

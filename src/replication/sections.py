@@ -85,14 +85,14 @@ def section(shared: str = "", /, base: type[Section] = Section, **types: Any) ->
 TYPES = (
     (
         Positive,
-        "amplitude below damping_ratio depth directivity distance factor frame_frequency_parameter "
+        "amplitude below depth directivity distance factor frame_frequency_parameter "
         "frequency_ratio friction half_height half_width height highest largest largest_factor "
         "longest magnitude period rocking site_velocity slow span sufficient table_amplitude "
-        "table_frequency time_constant time_step velocity width",
+        "table_frequency time_step velocity width",
     ),
     (
         Items[Positive],
-        "bays corners damping_ratios depths frames soils time_constants velocities",
+        "bays corners depths frames soils velocities",
     ),
     (
         Fraction,
