@@ -37,16 +37,15 @@ def compute(settings, structures):
 def required(frame, cap, shaking, settings):
     """Return the required friction of a history with its impacts; None if the frame overturns.
 
-    The error is the change when every second sample is left out. The vertical reaction is the least
-    of the four contacts over the weight, and at impacts the impulse over that of both bases.
+    The vertical reaction is the least of the four contacts over the weight, and at impacts the
+    impulse over that of both bases.
     """
     response = simulate(frame, shaking, samples=2)
     if response.overturned:
         return None
     arcs = history(frame, shaking, response, settings["samples"])
     forces = forces_at(frame, cap, arcs.rotation, arcs.velocity, arcs.ground)
-    friction, vertical = forces.friction_demand, [np.nanmin(forces.vertical)]
-    largest, coarse = np.nanmax(friction), np.nanmax(friction[..., ::2])
+    vertical = [np.nanmin(forces.vertical)]
     if arcs.impacts:
         impact = impact_impulses(frame, cap, 1.0)
         vertical.append(impact.vertical.min() / impact.vertical[:2].sum())
@@ -55,8 +54,7 @@ def required(frame, cap, shaking, settings):
         "shape": shaking.shape,
         "frequency_ratio": shaking.angular_frequency / column.frequency_parameter,
         "amplitude": shaking.amplitude / column.uplift_acceleration,
-        "required": float(largest),
-        "error": float(largest - coarse),
+        "required": float(np.nanmax(forces.friction_demand)),
         "least_vertical": float(min(vertical)),
     }
 
@@ -86,7 +84,6 @@ def by_mass(pulses):
     largest = groups.agg(
         survived=("required", "size"),
         required=("required", "max"),
-        error=("error", "max"),
         least_vertical=("least_vertical", "min"),
     )
     return largest.reset_index()
