@@ -103,7 +103,6 @@ def agreement(settings, tightened):
                 "against": name,
                 "cells": len(sample),
                 "outcomes_that_differ": sum(a.overturned != b.overturned for a, b in pairs),
-                "median_error": power_above(np.median(apart), TOLERANCE),
                 "error_99": power_above(np.quantile(apart, 0.99), TOLERANCE),
             }
 
