@@ -110,10 +110,10 @@ def minimum(frame, kind, column=None):
 def across(settings, structures):
     """Return the lowest amplitude that overturns each structure, in its plane and across it.
 
-    All accelerations are normalised by the theoretical minimum of the square column. `uplift` is
-    computed by hand and `theory` by the equation of rocking; round columns and oblique directions
-    have no theory (NaN). There the search starts just below the amplitude that overturns the single
-    column in the same direction, if that was computed.
+    All accelerations are normalised by the theoretical minimum of the square column. `theory` is
+    by the equation of rocking; round columns and oblique directions have none (NaN). There the
+    search starts just below the amplitude that overturns the single column in the same
+    direction, if that was computed.
     """
     spec, frames = settings["across"], [(IN_LINE, IN_PLANE), (IN_LINE, ACROSS), (SLAB, IN_PLANE)]
     gammas, ratios = spec["mass_ratios"], spec["frequency_ratios"]
@@ -175,8 +175,7 @@ def overturning(row, changed, of_column, settings, structures):
     factor = next(f for f in factors if overturns(bodies, pulse.scaled(f), direction))
     message = f"{row}, {changed}: overturns from {factor:.2f} on; expected {expected:.3f}"
     check(factor > factors[0] and not abs(factor - expected) > 1.5 * step, message)
-    numbers = {"uplift": uplift, "theory": expected, "engine": factor}
-    return dict(zip(LABELS, row, strict=True)) | solver | numbers
+    return dict(zip(LABELS, row, strict=True)) | solver | {"theory": expected, "engine": factor}
 
 
 def findings(engine_restitution, engine_outcomes, engine_across):
