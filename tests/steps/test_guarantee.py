@@ -40,38 +40,17 @@ def test_all_hold(tables):
 
 
 @pytest.mark.parametrize(
-    ("table", "row", "column", "number", "breaks"),
+    ("table", "row", "column", "number"),
     [
-        ("guarantee_attack", "visits == 2 and mass_ratio == 1", "found", 1.0, "velocity_is_sharp"),
-        ("guarantee_motions", "share > 1", "overturned", False, "velocity_is_sharp"),
-        ("guarantee_motions", "share < 1", "peak", 0.99, "velocity_is_sharp"),
-        (
-            "guarantee",
-            "structure == 'temple' and support == 'frame' and mass_ratio == 1",
-            "velocity_2",
-            0.2,
-            "heavier_may_move_faster",
-        ),
-        (
-            "guarantee",
-            "structure == 'tall' and support == 'fixed mass' and mass_ratio == 1",
-            "gain",
-            0.1,
-            "fixed_mass_may_not",
-        ),
-        (
-            "guarantee_order",
-            "mass_ratio == 1 and time == 5",
-            "rotation_over_alpha",
-            2.4,
-            "heavier_rotates_less",
-        ),
+        ("guarantee_attack", "visits == 2 and mass_ratio == 1", "found", 1.0),
+        ("guarantee_motions", "share > 1", "overturned", False),
+        ("guarantee_motions", "share < 1", "peak", 0.99),
     ],
 )
-def test_changed_number_breaks_its_finding(tables, table, row, column, number, breaks):
+def test_changed_number_breaks_its_finding(tables, table, row, column, number):
     (chosen,) = tables[table].query(row).index
     tables[table].loc[chosen, column] = number
-    assert broken(findings(tables)) == {breaks}
+    assert broken(findings(tables)) == {"velocity_is_sharp"}
 
 
 def test_velocities_of_the_column_of_six_metres():
