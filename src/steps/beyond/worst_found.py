@@ -13,7 +13,7 @@ import pandas as pd
 from replication.config import read_yaml
 from replication.step import check, run, truth
 from steps.shared.falls import GRID, STEP, share_that_stays
-from steps.shared.lobes import Lobe, half_range, record_of
+from steps.shared.lobes import Lobe, record_of
 from steps.shared.samples import Cell, check_sample
 from steps.shared.sentences import Case, read_sentences
 from topheavy import Column
@@ -69,7 +69,6 @@ def row_of_case(
         "stays": share_that_stays(case.lobes, *case.blocks(), highest, *terms),
         "least_vertical": least,
         "friction": friction,
-        "half_range": heavier.wide_lower * half_range(case.motion),
         "lobes": len(case.lobes),
         **{key: entry[key] for key in ("evaluations", "seed", "date")},
     }
@@ -101,18 +100,14 @@ def compute(
     return {"worst": pd.DataFrame(rows), "motions": pd.concat(samples)}
 
 
-def findings(worst_found: pd.DataFrame, contacts: Mapping[str, Any]) -> dict[str, Any]:
-    """Return for each sentence its worst case, and the one that remains in most draws."""
-    has_contacts = (worst_found.least_vertical > 0.0) & (
-        worst_found.friction <= contacts["sufficient"]
-    )
-    results = {"contacts_are_kept": truth(has_contacts.all(), cases=len(worst_found))}
+def findings(worst_found: pd.DataFrame) -> dict[str, Any]:
+    """Return for each sentence its case that remains in most draws."""
+    results = {}
     for name in read_sentences():
         rows = worst_found[worst_found.sentence == name]
-        for label, columns in (("worst", ["strict"]), ("steadiest", ["stays", "strict"])):
-            evidence = rows.nlargest(1, columns).to_dict("records")[0] if len(rows) else {}
-            evidence |= {key: f"{evidence[key]:g}" for key in ("lighter", "heavier") if evidence}
-            results[f"{label}_{name}"] = truth(rows.empty, **evidence)
+        evidence = rows.nlargest(1, ["stays", "strict"]).to_dict("records")[0] if len(rows) else {}
+        evidence |= {key: f"{evidence[key]:g}" for key in ("lighter", "heavier") if evidence}
+        results[f"steadiest_{name}"] = truth(rows.empty, **evidence)
     return results
 
 
