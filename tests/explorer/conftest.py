@@ -38,10 +38,8 @@ class Page(Browser):
 
     kept = None
 
-    def open(
-        self, address="g=1", *, width=1440, height=900, dark=False, moves=False, until="histories"
-    ):
-        """Open the page at an address, at a size and in a colour scheme.
+    def open(self, address="g=1", *, width=1440, height=900, moves=False, until="histories"):
+        """Open the page at an address and at a size, in light colours.
 
         Unless it `moves`, it is shown to somebody who prefers that it does not.
         """
@@ -49,7 +47,7 @@ class Page(Browser):
         self.events.clear()
         self.resize(width, height)
         preferred = {
-            "prefers-color-scheme": "dark" if dark else "light",
+            "prefers-color-scheme": "light",
             "prefers-reduced-motion": "" if moves else "reduce",
         }
         features = [{"name": name, "value": value} for name, value in preferred.items()]
@@ -68,7 +66,7 @@ class Page(Browser):
         self.do("start({...DEFAULTS, ...{0}})", change)
         self.settle("minima")
 
-    def resize(self, width, height=900):
+    def resize(self, width, height):
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self.ask("Emulation.setDeviceMetricsOverride", **size)
 
