@@ -91,6 +91,9 @@ def test_a_page_can_be_read_by_machines(pages):
         assert max(steps) == 1, f"{path}: headings {page.levels}"
         assert page.levels.count(1) == 1, path
         assert all(page.alts), path
+        whole = "(?:(?!</math>).)*"
+        unread = f"<th><math>{whole}</math></th>|<math[^>]*>{whole}<a "
+        assert not re.search(unread, page.text), path
     figures = pages[SITE / "index.html"].alts
     assert len(figures) >= 10
     assert all(len(alt) > 40 for alt in figures)

@@ -12,6 +12,7 @@ from html import escape
 from itertools import chain, count
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 import mistune
 
@@ -73,7 +74,8 @@ def headed(name: str, text: str, style: str) -> str:
 def document(name: str, html: str) -> str:
     """Return the HTML of Typst in the frame, with an anchor for each number and sizes of pictures.
 
-    A browser would break the line between an expression and the mark that follows it.
+    A browser would break the line between an expression and the mark that follows it. A screen
+    reader takes an expression as a whole: its link goes around it, and as a head it has a name.
     """
     title = re.search("<title>(.*?)</title>", html)[1]
     styles = "".join(re.findall("(?s)<style>(.*?)</style>", html))  # of MathML, by Typst
@@ -89,7 +91,16 @@ def document(name: str, html: str) -> str:
     body = re.sub("<mo>.</mo>", lambda accent: accent[0].translate(ACCENTS), body)
     whole = r"\(?<math>(?:(?!</math>).)*</math>[).,;:]+"
     body = re.sub(whole, r'<span class="whole">\g<0></span>', body)
+    number = '((?:(?!</?math>).)*)(<a id="n[^>]*>)([^<]*)</a>((?:(?!<a |</math>).)*)'
+    body = re.sub(f"<math>{number}</math>", r"\2<math>\1<mn>\3</mn>\4</math></a>", body)
+    body = re.sub("<th><math>((?:(?!</math>).)*)</math></th>", column_head, body)
     return framed(name, title, f"<style>{styles}</style>{body}", "article")
+
+
+def column_head(cell: re.Match) -> str:
+    """Return the head of a column that is an expression, with its letters as its name."""
+    name = normalize("NFKC", re.sub("<[^>]*>", "", cell[1]))
+    return f'<th><math aria-label="{name}">{cell[1]}</math></th>'
 
 
 def listed(name: str, text: str, more: str = "") -> str:
