@@ -93,7 +93,7 @@ class Controls {
       const [shape, name] = select.value.split(/:(.*)/s);
       this.apply(shape === "record" ? { shape, record: name } : { shape }, true, "shape");
     });
-    return made("div", { class: "field", id: "shape-field" }, made("label", { for: "shape" }, "Shape", made("small", {}, "pulses of one cycle")), select,
+    return made("div", { class: "field", id: "shape-field" }, made("label", { for: "shape" }, "Shape"), select,
       made("p", { class: "error", id: "shape-error", role: "alert" }));
   }
 
