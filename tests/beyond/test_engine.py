@@ -76,8 +76,8 @@ def test_ground_that_accelerates_forward_tilts_it_back(sign):
     ("inclined", "falls"),
     [
         ([0.1, 1.1], True),
-        ([0.1, 0.0, 0.1, 0.0, 1.1], False),  # it has returned twice after the pulse
-        ([0.1, 0.0, 0.1, 1.1], True),
+        ([0.1, 0.0, 0.1, 0.0, 1.1], False),  # it has turned back after the pulse
+        ([0.1, 0.0, 0.1, 1.1], True),  # it has returned from the rotation at the end of the pulse
         ([0.0] * 12 + [1.1], False),  # it has come to rest
     ],
 )

@@ -16,22 +16,21 @@ SMALLEST_PEAK = 0.02  # smallest peak of a bounce whose loss counts, times α
 def overturn(looks: Iterable[tuple[float, float]], column: Column, pulse: Pulse) -> bool:
     """Return whether a pulse inclines a column by π/3, from times (s) and largest inclinations.
 
-    Bodies survive if they rest after the pulse, return to upright twice (each impact takes energy),
-    or still rock 14/p after it.
+    Bodies survive if they rest after the pulse, turn back (impacts only take energy, so that they
+    never come as far again), or still rock 14/p after it.
     """
-    p, returns, upright_since = column.frequency_parameter, 0, math.inf
+    p, last, rises, upright_since = column.frequency_parameter, math.inf, False, math.inf
     for time, inclination in looks:
         if inclination > OVERTURNED:
             return True
         if time > pulse.duration + WAIT / p:
             return False
         if time > pulse.duration:
-            if inclination >= UPRIGHT * column.slenderness:
-                upright_since = math.inf
-            elif upright_since == math.inf:
-                returns, upright_since = returns + 1, time
-            if returns > 1 or time - upright_since > REST / p:
+            is_upright = inclination < UPRIGHT * column.slenderness
+            upright_since = min(upright_since, time) if is_upright else math.inf
+            if (rises and inclination < last) or time - upright_since > REST / p:
                 return False
+            rises, last = inclination > last and not is_upright, inclination
     return False
 
 
