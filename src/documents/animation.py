@@ -17,7 +17,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Polygon
 from PIL import Image
 
-from replication.drawing import GREY, INK, PAPER
+from replication.drawing import GREY, INK, PAPER, settle
 from replication.step import check, run
 from steps.shared.poses import bodies, lying, structures
 from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, simulate
@@ -88,6 +88,7 @@ def stage(pulse: Pulse, times: np.ndarray, settings: dict, column: dict):
     trace.set(xlim=(0, times[-1]), ylim=(-0.45, 0.45), yticks=(-0.3, 0, 0.3))
     trace.set_xlabel("Time (s)", fontsize=9)
     trace.set_ylabel("Ground (g)", fontsize=9)
+    marker.set_in_layout(False)
     return figure, scene, marker
 
 
@@ -116,6 +117,7 @@ def pictures(settings: dict, column: dict) -> list[Image.Image]:
         how = {"ha": "center", "va": "bottom", "fontsize": 12, "color": COLOURS[word][1]}
         words[name] = scene.text(middle, VIEW[2], word, visible=False, **how), since
     canvas, drawings = FigureCanvasAgg(figure), []
+    settle(figure)  # once, with its pixels: a layout in each picture takes half of the time
     for number, shift in enumerate(ground_displacement(pulse, times)):
         for name, structure in shown.items():
             for body, outline in bodies(structure, theta[name][number], cap).items():
