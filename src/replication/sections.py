@@ -136,7 +136,7 @@ class Consistent(Section):
 
     @model_validator(mode="after")
     def consistent(self: Any) -> Any:
-        engine, motions, spectra = self.engine, self.motions, self.spectra
+        engine, motions, spectra, even = (self.engine, self.motions, self.spectra, self.break_even)
         frames = {
             entry.structure
             for part in (engine.restitution, engine.outcomes)
@@ -148,7 +148,10 @@ class Consistent(Section):
             f"engine.caps: expected {', '.join(sorted(frames))}": not frames <= {*engine.caps},
             f"motions.fewer: expected at most {motions.motions}": motions.fewer > motions.motions,
             f"break_even.velocities: expected {motions.velocity:g} among them, as in motions": (
-                motions.velocity not in self.break_even.velocities
+                motions.velocity not in even.velocities
+            ),
+            f"break_even.lowered: expected {even.measured[-1]:g} among them, as in measured": (
+                even.measured[-1] not in even.lowered
             ),
             "spectra.finer.resolution: expected less than that of amplitudes": (
                 spectra.finer.resolution >= spectra.amplitudes.resolution

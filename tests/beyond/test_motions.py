@@ -221,10 +221,11 @@ def test_end_is_that_of_the_outcomes(monkeypatch):
     fell = np.repeat(fell, len(EVEN["velocities"]), axis=2)
     monkeypatch.setattr(break_even, "outcomes", lambda shards, name: fell.astype(np.int8))
     monkeypatch.setattr(break_even, "check_sample", list)
-    settings = EVEN | {"lowered": [0.1, 0.2]}
+    settings = EVEN | {"lowered": [0.1, 0.2], "measured": [0.1]}
     eight = SETTINGS | {"motions": 8}
     results = break_even.compute(settings, eight, CONFIG["structures"], [])
     assert results["ends"].end.to_numpy() == pytest.approx(0.15)
+    assert results["ends"].remaining.to_numpy() == pytest.approx((4 - 3) / (6 - 3))
     benefits = results["benefits"].query("lowered == 'both'")
     assert benefits.column.tolist() == [0.75, 0.5, 0.25] * 2
     assert (benefits.frame == 0.375).all()
@@ -240,6 +241,7 @@ def test_end_is_that_of_the_outcomes(monkeypatch):
 )
 def test_one_velocity_or_change_is_enough_to_refute(end, low, false):
     ends = pd.DataFrame({"end": end, "end_low": [0.04, 0.05], "end_high": [0.09, 0.1]})
+    ends[["set", "remaining"]] = [["near-fault", 0.2], ["near-fault", 0.5]]
     lowered = ["both", "both", "column alone", break_even.WITHIN]
     benefits = pd.DataFrame(
         {"set": "near-fault", "lowered": lowered, "reduction": [0.0, 0.05, 0.05, 0.0]}
@@ -248,6 +250,8 @@ def test_one_velocity_or_change_is_enough_to_refute(end, low, false):
     )
     findings = break_even.findings(ends, benefits, EVEN)
     assert broken(findings) == false
+    remains = findings["remaining_share_near_fault"]
+    assert (remains["least"], remains["most"]) == (0.2, 0.5)
     limits = findings["benefit_ends"]
     assert (limits["low"], limits["high"]) == (0.04, 0.1)
     names = ("benefit", "remaining", "remaining_of_both", "within")

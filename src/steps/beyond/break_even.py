@@ -26,6 +26,7 @@ def compute(settings, motions, structures, shards):
     column = Column(**structures[motions["structure"]])
     shares, ends, benefits, samples = reductions(settings), [], [], {}
     level = settings["velocities"].index(motions["velocity"])
+    measured = list(shares).index(settings["measured"][-1])
     for number, name in enumerate(FAMILIES):
         quakes = [quake for quake in sets(motions) if quake.startswith(name)]
         parts = [outcomes(shards, f"{quake}: lowered") == 1 for quake in quakes]
@@ -48,6 +49,7 @@ def compute(settings, motions, structures, shards):
                 {"set": name, "velocity": velocity, "motions": len(fell)}
                 | {"column": means[0, 0, place], "frame": means[0, shares.size, place]}
                 | {"end": end, "end_low": low, "end_high": high}
+                | {"remaining": less[0, measured] / less[0, 0]}
             )
         benefits += compare(name, settings, ensemble, means[..., level])
     check_sample(sampled(samples, settings, motions, column))
@@ -109,7 +111,11 @@ def sampled(samples, settings, motions, column):
 
 
 def findings(break_even, break_even_benefit, settings):
-    """Return where the benefit ends, and its size with √r of Eq. (25) and with measured √r."""
+    """Return where the benefit ends, and its size with √r of Eq. (25) and with measured √r.
+
+    The share of the benefit that remains, at each velocity, has the last measured √r of the column
+    alone.
+    """
     ends, benefits = break_even, break_even_benefit
     lowered = benefits[benefits.lowered == "both"]
     known = ends[np.isfinite(ends.end)]
@@ -123,6 +129,10 @@ def findings(break_even, break_even_benefit, settings):
         ),
         "frame_is_safer": truth((lowered.benefit_low > 0.0).all()),
     }
+    for name, rows in ends.groupby("set"):
+        least, most = rows.remaining.min(), rows.remaining.max()
+        less = truth(most < 1.0, least=least, most=most)
+        results[f"remaining_share_{name.replace('-', '_')}"] = less
     measured = settings["measured"][-1]
     for name, way, share in (
         ("benefit", "both", 0.0),
