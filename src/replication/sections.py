@@ -136,7 +136,8 @@ class Consistent(Section):
 
     @model_validator(mode="after")
     def consistent(self: Any) -> Any:
-        engine, motions, spectra, even = (self.engine, self.motions, self.spectra, self.break_even)
+        engine, motions, spectra = self.engine, self.motions, self.spectra
+        even = self.break_even
         frames = {
             entry.structure
             for part in (engine.restitution, engine.outcomes)
