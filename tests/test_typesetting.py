@@ -101,7 +101,7 @@ def test_bounds_are_rounded_outward(folder, tmp_path):
     [
         ("raises the median", "lowers the median", "as both columns raises the"),
         ("it was shaken below", "it was shaken beyond", "it was shaken below uplift"),
-        ("No test of", "7 tests of", ": 7 of the abstract"),
+        ("No tested", "7 tested", ": 7 of the abstract"),
         ("Until the first", "Until the last", "'Until the first impact"),
     ],
 )

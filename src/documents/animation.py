@@ -79,7 +79,7 @@ def stage(pulse: Pulse, times: np.ndarray, settings: dict, column: dict):
         scene.text(middle, VIEW[3], NAMES[name], va="top", ha="center", fontsize=11, color=INK)
     fine = np.linspace(0.0, times[-1], 1400)
     trace.plot(fine, pulse.excitation(fine), color=GREY, linewidth=1.2)
-    marker = trace.plot([], [], "o", color=INK, markersize=6, clip_on=False)[0]
+    marker = trace.plot(times[-1:], [0.0], "o", color=INK, markersize=6, clip_on=False)[0]
     wave = settings["pulse"]
     words = f"one cosine, {wave['amplitude']:g} g, {wave['period']:g} s"
     words += f"; columns of {2 * column['half_height']:g} m × {2 * column['half_width']:g} m"
@@ -88,7 +88,6 @@ def stage(pulse: Pulse, times: np.ndarray, settings: dict, column: dict):
     trace.set(xlim=(0, times[-1]), ylim=(-0.45, 0.45), yticks=(-0.3, 0, 0.3))
     trace.set_xlabel("Time (s)", fontsize=9)
     trace.set_ylabel("Ground (g)", fontsize=9)
-    marker.set_in_layout(False)
     return figure, scene, marker
 
 
