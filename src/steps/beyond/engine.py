@@ -179,7 +179,7 @@ def overturning(row, changed, of_column, settings, structures):
 
 
 def findings(engine_restitution, engine_outcomes, engine_across):
-    pymunk = engine_restitution[engine_restitution.solver == stones.VERSION]
+    pymunk = engine_restitution[engine_restitution.solver.str.startswith("pymunk")]
     roots = (engine_restitution.engine / engine_restitution.theory - 1.0).abs()
     frequency = (pymunk.frequency_parameter_over_theory - 1.0).abs().max()
     loss = roots[pymunk.index].max()
