@@ -42,8 +42,6 @@ NUDGES, CLOSE = (-1e-6, -1e-8, 1e-8, 1e-6), 1e-6
 FARTHER = (*NUDGES, -1e-5, 1e-5)
 #: The tolerance of slightly changed motions, which is to leave a decided outcome as well.
 TIGHT = 1e-13
-#: The error of a boundary, over its factor: a search counts impacts, and solves with other steps.
-ERROR = 1e-9
 
 
 def edged(low: float, high: float, *edges: float) -> st.SearchStrategy[float]:
@@ -206,16 +204,21 @@ def grids(several: list[Any], data: st.DataObject) -> None:
 def searches(case: Any) -> None:
     structure, motion, vertical = case
     above = {"vertical": vertical, "scale_vertical": False}
+    ends = partial(th.judge, structure, vertical=vertical)
+
+    def overturns(factor: float) -> bool:  # a search, which counts impacts, has other steps
+        scaled = motion.scaled(factor)
+        safe = not th.overturned_by(structure, motion, [factor], **above)[0]
+        return not safe or decided(ends, scaled, ends(scaled)) == math.inf
+
     for one in th.overturning_intervals(structure, motion, (0.0, 1.5), resolution=0.05, **above):
-        inside = one.lower[1] * (1.0 + ERROR), (one.upper or (1.5,))[0] * (1.0 - ERROR)
-        outcomes = th.overturned_by(structure, motion, inside, **above)
-        assert inside[0] > inside[1] or outcomes.all(), f"{one} has safe ends"
+        inside = [one.lower[1], *(one.upper or ())[:1]]
+        assert all(map(overturns, inside)), f"{one} has safe ends"
     deep = th.lowest_overturning(structure, motion, (0.0, 1.5), floor=0.05, **above)
     grid = np.linspace(0.0, 1.5, 33)
     overturned = th.overturned_by(structure, motion, grid, **above)
     assert not (overturned & (grid < deep.factor)).any() if deep.bracket else not overturned.any()
-    least = [deep.factor * (1.0 + ERROR)]
-    assert deep.bracket is None or th.overturned_by(structure, motion, least, **above)[0]
+    assert deep.bracket is None or overturns(deep.factor)
 
 
 PROPERTIES = {
