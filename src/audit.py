@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from scipy import optimize, special
+import scipy  # loads its parts where they are used
 
 G, INF, PI = 9.81, math.inf, math.pi
 LONGEST_STEP, SHORT_STEP = 0.3, 0.05  # steps of p t
@@ -535,7 +535,7 @@ def trust():
         part = math.exp((PI - lift) / omega)
         return part * (alpha * (k - 1) + amp * k * omega * math.cos(lift)) + amp * k * omega
 
-    beside = optimize.brentq(growing, 1.01 * alpha, 5.0) * np.array([1 - 1e-8, 1 + 1e-8])
+    beside = scipy.optimize.brentq(growing, 1.01 * alpha, 5.0) * np.array([1 - 1e-8, 1 + 1e-8])
     ends = follow([Body(1.0, alpha, 0.9)], beside, pulse("half-sine"), omega, linear=True)
     compare_all("this file: beside a minimum that has a closed form", [0, 1], ends.overturned)
 
@@ -785,13 +785,13 @@ def median_velocity(velocities, shares):
     def score(terms):  # the slope of the likelihood
         probit = terms @ powers
         density = -(probit**2) / 2 - math.log(2 * PI) / 2
-        over, under = (np.exp(density - special.log_ndtr(side * probit)) for side in (1, -1))
+        over, under = (np.exp(density - scipy.special.log_ndtr(sign * probit)) for sign in (1, -1))
         return powers @ (shares * over - (1 - shares) * under)
 
     inside = (shares > 0.02) & (shares < 0.98)
-    start = np.polynomial.Polynomial.fit(x[inside], special.ndtri(shares[inside]), 2).convert().coef
-    terms = optimize.root(score, start, tol=1e-13).x
-    return math.exp(optimize.brentq(lambda v: terms @ [1, v, v**2], x[0], x[-1]))
+    start = np.polynomial.Polynomial.fit(x[inside], scipy.special.ndtri(shares[inside]), 2)
+    terms = scipy.optimize.root(score, start.convert().coef, tol=1e-13).x
+    return math.exp(scipy.optimize.brentq(lambda v: terms @ [1, v, v**2], x[0], x[-1]))
 
 
 def gains():

@@ -8,6 +8,7 @@ import ast
 import csv
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
 from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -186,11 +187,15 @@ def _judges(run: Run, rule: str, name: str, to: Docs) -> str:
     return f". Judges {', '.join(judged)}" if judged else ""
 
 
+@cache
+def nodes_of(script: str) -> list[ast.AST]:
+    return [*ast.walk(ast.parse(Path(script).read_text("utf-8")))]
+
+
 def line_of(script: str, name: str, function: str) -> int:
     """Return the line where a script names a result, composes its name, or has the function."""
-    tree = ast.parse(Path(script).read_text("utf-8"))
     places = {-1: 1}  # by how much of the name a line has
-    for node in ast.walk(tree):
+    for node in nodes_of(script):
         if isinstance(node, ast.FunctionDef) and node.name == function:
             places[0] = node.lineno
         elif isinstance(node, ast.JoinedStr):

@@ -21,29 +21,33 @@ def compute(settings, structures):
     pulses = [
         pulse_on(column, *labels) for labels in product(settings["shapes"], ratios, amplitudes)
     ]
+    frames = {gamma: RockingFrame(column, gamma) for gamma in [0.0, *settings["mass_ratios"]]}
+    arcs = {g: [*survived(frame, pulses, settings["samples"])] for g, frame in frames.items()}
     rows = []
     for bay, gamma in [(0.0, 0.0), *product(settings["bays"], settings["mass_ratios"])]:
-        frame = RockingFrame(column, gamma)
-        cap = Cap(bay or settings["bays"][0], settings["depth"] / 2.0)
-        histories = (required(frame, cap, pulse, settings) for pulse in pulses)
-        survived = [row for row in histories if row]
+        frame, cap = frames[gamma], Cap(bay or settings["bays"][0], settings["depth"] / 2.0)
+        of_pulses = [required(frame, cap, *case) for case in arcs[gamma]]
         if gamma > 0.0:
-            compare(frame, cap, max(survived, key=lambda row: row["required"]), settings)
-        rows += [{"bay": bay, "mass_ratio": gamma} | row for row in survived]
+            compare(frame, cap, max(of_pulses, key=lambda row: row["required"]), settings)
+        rows += [{"bay": bay, "mass_ratio": gamma} | row for row in of_pulses]
     table = pd.DataFrame(rows)
     return {"pulses": table, "by_mass": by_mass(table)}
 
 
-def required(frame, cap, shaking, settings):
-    """Return the required friction of a history with its impacts; None if the frame overturns.
+def survived(frame, pulses, samples):
+    """Yield each pulse that does not overturn a frame, of any bay, and the history under it."""
+    for pulse in pulses:
+        response = simulate(frame, pulse, samples=2)
+        if not response.overturned:
+            yield pulse, history(frame, pulse, response, samples)
+
+
+def required(frame, cap, shaking, arcs):
+    """Return the required friction of a history with its impacts.
 
     The vertical reaction is the least of the four contacts over the weight, and at impacts the
     impulse over that of both bases.
     """
-    response = simulate(frame, shaking, samples=2)
-    if response.overturned:
-        return None
-    arcs = history(frame, shaking, response, settings["samples"])
     forces = forces_at(frame, cap, arcs.rotation, arcs.velocity, arcs.ground)
     vertical = [np.nanmin(forces.vertical)]
     if arcs.impacts:
