@@ -21,15 +21,17 @@ def compute(settings, structures):
     pulses = [
         pulse_on(column, *labels) for labels in product(settings["shapes"], ratios, amplitudes)
     ]
-    frames = {gamma: RockingFrame(column, gamma) for gamma in [0.0, *settings["mass_ratios"]]}
-    arcs = {g: [*survived(frame, pulses, settings["samples"])] for g, frame in frames.items()}
-    rows = []
-    for bay, gamma in [(0.0, 0.0), *product(settings["bays"], settings["mass_ratios"])]:
-        frame, cap = frames[gamma], Cap(bay or settings["bays"][0], settings["depth"] / 2.0)
-        of_pulses = [required(frame, cap, *case) for case in arcs[gamma]]
-        if gamma > 0.0:
-            compare(frame, cap, max(of_pulses, key=lambda row: row["required"]), settings)
-        rows += [{"bay": bay, "mass_ratio": gamma} | row for row in of_pulses]
+    bays, rows = [0.0, *settings["bays"]], []
+    for gamma in [0.0, *settings["mass_ratios"]]:
+        frame = RockingFrame(column, gamma)
+        cases = [*survived(frame, pulses, settings["samples"])]
+        for bay in bays[1:] if gamma else bays[:1]:
+            cap = Cap(bay or bays[1], settings["depth"] / 2.0)
+            of_pulses = [required(frame, cap, *case) for case in cases]
+            if gamma > 0.0:
+                compare(frame, cap, max(of_pulses, key=lambda row: row["required"]), settings)
+            rows += [{"bay": bay, "mass_ratio": gamma} | row for row in of_pulses]
+    rows.sort(key=lambda row: bays.index(row["bay"]))
     table = pd.DataFrame(rows)
     return {"pulses": table, "by_mass": by_mass(table)}
 
