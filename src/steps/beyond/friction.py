@@ -21,18 +21,19 @@ def compute(settings, structures):
     pulses = [
         pulse_on(column, *labels) for labels in product(settings["shapes"], ratios, amplitudes)
     ]
-    bays, rows = [0.0, *settings["bays"]], []
+    caps, rows = {bay: Cap(bay, settings["depth"] / 2.0) for bay in settings["bays"]}, []
+    alone = {0.0: caps[settings["bays"][0]]}
     for gamma in [0.0, *settings["mass_ratios"]]:
         frame = RockingFrame(column, gamma)
-        cases = [*survived(frame, pulses, settings["samples"])]
-        for bay in bays[1:] if gamma else bays[:1]:
-            cap = Cap(bay or bays[1], settings["depth"] / 2.0)
-            of_pulses = [required(frame, cap, *case) for case in cases]
-            if gamma > 0.0:
-                compare(frame, cap, max(of_pulses, key=lambda row: row["required"]), settings)
-            rows += [{"bay": bay, "mass_ratio": gamma} | row for row in of_pulses]
-    rows.sort(key=lambda row: bays.index(row["bay"]))
+        for pulse, arcs in survived(frame, pulses, settings["samples"]):
+            for bay, cap in (caps if gamma else alone).items():
+                row = required(frame, cap, pulse, arcs)
+                rows.append({"bay": bay, "mass_ratio": gamma} | row)
+    rows.sort(key=lambda row: [0.0, *caps].index(row["bay"]))
     table = pd.DataFrame(rows)
+    for (bay, gamma), part in table[table.mass_ratio > 0.0].groupby(["bay", "mass_ratio"]):
+        largest = part.loc[part.required.idxmax()]
+        compare(RockingFrame(column, gamma), caps[bay], largest, settings)
     return {"pulses": table, "by_mass": by_mass(table)}
 
 

@@ -199,6 +199,11 @@ class FactorInterval:
     number_of_impacts : int
         Before overturning. 0 is mode 2 of Zhang & Makris (2001), 1 is their mode 1.
 
+    Notes
+    -----
+    `overturned_by` does not count impacts and takes other steps: it may have a boundary apart by
+    the solver's error, of which 2e-10 of a factor was met.
+
     Examples
     --------
     >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, angular_frequency=2.0)
