@@ -189,6 +189,7 @@ def _judges(run: Run, rule: str, name: str, to: Docs) -> str:
 
 @cache
 def nodes_of(script: str) -> list[ast.AST]:
+    """Return the syntax of a script, which is parsed once for all its results."""
     return [*ast.walk(ast.parse(Path(script).read_text("utf-8")))]
 
 

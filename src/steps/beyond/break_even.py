@@ -45,12 +45,11 @@ def compute(settings, motions, structures, shards):
                 coarse == end or abs(coarse - end) <= FINE * (high - low),
                 f"twice the step moves the end from {end:g} to {coarse:g} at {velocity:g} m/s",
             )
-            remains = less[0, measured] / less[0, 0] if less[0, 0] > 0.0 else math.nan
             ends.append(
                 {"set": name, "velocity": velocity, "motions": len(fell)}
                 | {"column": means[0, 0, place], "frame": means[0, shares.size, place]}
                 | {"end": end, "end_low": low, "end_high": high}
-                | {"remaining": remains}
+                | {"remaining": less[0, measured] / less[0, 0]}
             )
         benefits += compare(name, settings, ensemble, means[..., level])
     check_sample(sampled(samples, settings, motions, column))

@@ -201,8 +201,8 @@ class FactorInterval:
 
     Notes
     -----
-    `overturned_by` does not count impacts and takes other steps: it may have a boundary apart by
-    the solver's error, of which 2e-10 of a factor was met.
+    `overturned_by` does not count impacts and takes other steps, so that its boundaries may lie
+    apart from these by the solver's error, which grows with the number of impacts.
 
     Examples
     --------
