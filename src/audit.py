@@ -187,7 +187,8 @@ def follow(
     lanes[LEVEL] = alpha if linear else np.tan(alpha)
     lanes[[PHI, HEIGHT, PEAK]] = abs(start[0])
     lanes[SIDE] = np.sign(start[0] or start[1])
-    lanes[RATE], lanes[KICK] = lanes[SIDE] * start[1], kick
+    # Released from rest, it has a rate inward: else a dip within its first step would not be seen.
+    lanes[RATE], lanes[KICK] = lanes[SIDE] * (start[1] or -1e-300 * np.sign(start[0])), kick
     strongest, samples = np.abs(ground.at(ground.corners)).max(), np.asarray(samples, float)
     flat = np.maximum(PI / 2, alpha + linear * np.abs(amp) * strongest)
     ends = np.zeros(count, bool), np.full(count, math.nan), np.zeros(count, int)

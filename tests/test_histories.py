@@ -136,6 +136,14 @@ def test_block_that_lands_on_ground_beyond_the_threshold_is_not_put_to_rest():
     assert np.all(history.rotation[1:] < 0.0)
 
 
+def test_block_released_from_rest_lands_within_its_first_step():
+    """It lands and is pushed up again before that step ends, which it began without a rate."""
+    block, push = th.RockingBlock(1.0, 1.0, 0.0), th.Record(0.5, [0.0, 7.787])
+    how = {"rotation": -0.0039, "duration": 1.0, "samples": [0.5]}
+    fast, slow = (solve(block, push, **how) for solve in (th.simulate, plain.simulate))
+    assert slow.rotation == pytest.approx(fast.rotation, rel=1e-6)
+
+
 # ---------------------------------------------------------------------------- without loss
 
 
