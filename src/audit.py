@@ -188,7 +188,8 @@ def follow(
     lanes[[PHI, HEIGHT, PEAK]] = abs(start[0])
     lanes[SIDE] = np.sign(start[0] or start[1])
     # Released from rest, it has a rate inward: else a dip within its first step would not be seen.
-    lanes[RATE], lanes[KICK] = lanes[SIDE] * (start[1] or -1e-300 * np.sign(start[0])), kick
+    lanes[RATE] = lanes[SIDE] * np.where(start[1], start[1], -1e-300 * np.sign(start[0]))
+    lanes[KICK] = kick
     strongest, samples = np.abs(ground.at(ground.corners)).max(), np.asarray(samples, float)
     flat = np.maximum(PI / 2, alpha + linear * np.abs(amp) * strongest)
     ends = np.zeros(count, bool), np.full(count, math.nan), np.zeros(count, int)
