@@ -65,6 +65,13 @@ def test_table_of_other_parameters_or_sources_is_not_compared(tmp_path):
     ):
         compared = compare({"vase": rule | change}, {"vase": rule}, BOUNDS)
         assert list(compared.verdict) == [verdict]
+    run = {"vase": rule | {"reads": ["a.csv", "b.csv"]}} | {
+        name: {"params": {name: 1}, "tables": [f"{name}.csv"]} for name in ("b", "a")
+    }
+    of_others = run | {"b": run["b"] | {"params": {"b": 2}}}
+    for rules, verdict in ((run, "agrees"), (of_others, "other parameters")):
+        compared = compare(rules, dict(sorted(run.items())), BOUNDS)  # published in another order
+        assert compared.verdict[0] == verdict
 
 
 def test_example_of_readme_prints_what_its_comment_says(capsys):

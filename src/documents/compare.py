@@ -49,13 +49,13 @@ def compare(
     """
     rows = []
     for name, rule in rules.items():
-        known = published.get(name, {})
+        is_same = _inputs(published, name) == _inputs(rules, name)
         for path in rule["tables"]:
             theirs = REFERENCE / Path(path).name
             columns: list[str] = []
             if not theirs.is_file():
                 verdict = "not published"
-            elif _inputs(known) != _inputs(rule):
+            elif not is_same:
                 verdict = "other parameters"
             else:
                 tables = pd.read_csv(path), pd.read_csv(theirs)
@@ -73,9 +73,13 @@ def compare(
     return pd.DataFrame(rows, columns=["rule", "table", "published", "verdict", "departs"])
 
 
-def _inputs(rule: Mapping) -> str:
-    """Return the parameters of a rule and the checksums of its sources as text."""
-    return json.dumps([rule.get("params"), rule.get("sources")], sort_keys=True)
+def _inputs(rules: Mapping[str, Any], name: str) -> str:
+    """Return as text the parameters of a rule, the checksums of its sources, and what it reads."""
+    rule = rules.get(name, {})
+    reads = {*rule.get("reads", ())}
+    before = sorted(other for other, entry in rules.items() if reads & {*entry["tables"]})
+    parts = [rule.get("params"), rule.get("sources"), [_inputs(rules, other) for other in before]]
+    return json.dumps(parts, sort_keys=True)
 
 
 if __name__ == "__main__":
